@@ -1,4 +1,4 @@
-// Draws the traced picture and the overlay, pixel for pixel or enlarged.
+// Draws the traced picture and the overlay, pixel for pixel or magnified.
 
 @group(0) @binding(0) var picture: texture_2d<f32>;
 // Premultiplied, of the picture's size. Not read without HAS_OVERLAY.
@@ -22,7 +22,7 @@ fn vs_main(@builtin(vertex_index) vertex: u32) -> Fragment {
     return Fragment(vec4f(2.0 * at.x - 1.0, 1.0 - 2.0 * at.y, 0.0, 1.0), at);
 }
 
-// Nearest-neighbour sampling: while the window is resized, the previous picture is stretched; pixels can be enlarged.
+// Nearest-neighbour sampling, for the previous picture while the window is resized, and for magnified pixels.
 fn pixel(texture: texture_2d<f32>, at: vec2f) -> vec4f {
     let size = vec2i(textureDimensions(texture));
     return textureLoad(texture, min(vec2i(at * vec2f(size)), size - 1), 0);

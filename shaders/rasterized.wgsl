@@ -1,9 +1,9 @@
-// Finds the visible triangle of each pixel, and where its centre lies in the triangle.
+// Finds the triangle visible at each pixel's centre, and the barycentric coordinates there.
 
 struct Fragment {
     @builtin(position) projected: vec4f,
     @location(0) position: vec3f,
-    // Barycentric coordinates of the second and the third corner, interpolated in perspective.
+    // Barycentric coordinates of the second and third corner, with perspective-correct interpolation.
     @location(1) weights: vec2f,
     // The triangle's number, counted from 1.
     @location(2) @interpolate(flat) triangle: u32,

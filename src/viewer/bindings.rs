@@ -201,7 +201,7 @@ impl NavigationSettings {
             ),
             (
                 "Ctrl+Shift+scroll",
-                "Zoom into the picture; Esc shows all of it",
+                "Magnify the picture; Esc shows the whole picture",
             ),
             ("Click", "Inspect the pixel"),
             ("Ctrl+click", "Inspect the pixel and keep the other picks"),

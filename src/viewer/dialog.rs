@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 /// A dialog that ends without a file in less than this time was never shown.
 const TOO_QUICK: Duration = Duration::from_millis(200);
 
-/// What a file dialog shows.
+/// The title, example and filters of a file dialog.
 #[derive(Debug)]
 pub struct DialogSpec {
     /// The title.

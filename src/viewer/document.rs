@@ -98,7 +98,7 @@ impl Packing {
         }
     }
 
-    /// Stays with the kernel that was packed last.
+    /// Keeps the kernel that was packed last.
     fn cancel(&mut self) {
         (self.next, self.wanted) = (Pending::Unasked, self.kernel);
     }
@@ -259,17 +259,17 @@ impl Document {
         self.packing.poll(&self.loaded.scene)
     }
 
-    /// How long the scene has been being packed for the wanted kernel; `None` if that isn't under way.
-    pub fn packing_lasted(&self) -> Option<Duration> {
-        self.packing.next.lasted()
+    /// Time since packing for the wanted kernel began; `None` if it isn't running.
+    pub fn packing_elapsed(&self) -> Option<Duration> {
+        self.packing.next.elapsed()
     }
 
-    /// The same for the second kernel.
-    pub fn second_packing_lasted(&self) -> Option<Duration> {
-        self.second.as_ref()?.next.lasted()
+    /// Time since packing for the second kernel began; `None` if it isn't running.
+    pub fn second_packing_elapsed(&self) -> Option<Duration> {
+        self.second.as_ref()?.next.elapsed()
     }
 
-    /// Stays with the kernel that was packed last. The thread that packs ends later, and its result is dropped.
+    /// Keeps the kernel that was packed last. The packing thread ends later, and its result is dropped.
     pub fn cancel_packing(&mut self) {
         self.packing.cancel();
     }

@@ -1,4 +1,4 @@
-//! Opening the window, and opening it again if the graphics device is lost.
+//! Opening the window, and reopening it if the graphics device is lost.
 //!
 //! eframe 0.37 creates the device with the window and keeps it in a private field of `egui_wgpu`'s painter, so that a
 //! running window can't change its device. The app therefore outlives its window: if the device is lost, the window
@@ -27,13 +27,13 @@ type Survivor = Rc<RefCell<Option<App>>>;
 #[error("the graphics device was lost {LOSSES} times in a row: {0}")]
 struct LostTooOften(String);
 
-/// Losses in a row after which no other window is opened.
+/// Losses in a row after which no new window is opened.
 const LOSSES: usize = 3;
-/// A window that stays open for this long ends the row.
+/// A window that stays open for this long resets the count of losses.
 const STABLE: Duration = Duration::from_secs(30);
 
 /// Opens the window on the first usable display server and graphics backend, and runs it until it closes. If its
-/// graphics device is lost, another window continues.
+/// graphics device is lost, the app continues in a new window.
 ///
 /// # Errors
 /// eframe's, if no window can be opened or the device is lost several times in a row.
@@ -110,7 +110,7 @@ fn run_once(
     window::run_until_destroyed(run, is_expected).unwrap_or(Ok(()))
 }
 
-/// What to do if a window has no texture to draw on. Each action but skipping draws the frame again.
+/// The action if the window has no texture to draw on. All actions except skipping draw the frame again.
 fn after_failed_frame(status: &CurrentSurfaceTexture) -> SurfaceErrorAction {
     match status {
         CurrentSurfaceTexture::Lost => SurfaceErrorAction::RecreateSurface,
@@ -121,7 +121,7 @@ fn after_failed_frame(status: &CurrentSurfaceTexture) -> SurfaceErrorAction {
     }
 }
 
-/// The window's share of the app.
+/// The window's handle of the app.
 struct InWindow(Survivor);
 
 impl InWindow {

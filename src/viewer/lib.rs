@@ -8,14 +8,14 @@
 //! | [`app`] | the app: its state and the order of work in a frame |
 //! | [`bindings`] | what drags and the wheel do on the picture |
 //! | [`command`] | the commands of keys, buttons and menus, as one table |
-//! | [`launch`], [`display`] | opening the window, again if the device is lost; the choice of the display server |
+//! | [`launch`], [`display`] | opening the window, and reopening it if the device is lost; the choice of the display server |
 //! | [`document`], [`opening`], [`watch`] | the open file, opening it, and watching it for changes |
 //! | [`recent`], [`folder`] | the files that were opened last; the files beside the open one |
 //! | [`saving`], [`dialog`] | saving it as a scene file; file dialogs |
 //! | [`session`], [`history`] | sessions as plain data; undo and redo |
 //! | [`tracer`], [`look`] | tracing of the window's picture; what is shown of it |
 //! | [`clip_choice`], [`parts`], [`colour_choice`] | the part of the scene that is shown; the colours of the picture |
-//! | [`comparison`] | the window's picture beside another one |
+//! | [`comparison`] | comparisons with another picture |
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
 //! | [`task`] | background tasks |
 //! | [`toasts`], [`log`], [`log_links`] | short messages about results; all messages, and the links in them |

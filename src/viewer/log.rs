@@ -39,11 +39,11 @@ struct Entry {
     document: Option<PathBuf>,
 }
 
-/// What the user clicks in the log.
+/// What the user does in the log.
 pub enum LogAction {
     /// Close the log.
     Close,
-    /// Go where a link leads.
+    /// Follow a link.
     Follow(Target),
 }
 

@@ -1,45 +1,45 @@
-//! Links in messages: the files and the elements of the scene that a text names.
+//! Links in messages, to the files, parts and elements that the text names.
 
 use hitscope_lab::element::Element;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// What a link leads to.
+/// The target of a link.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
     /// An element of the scene that was open.
     Element(Element),
     /// The parts with this name.
     Part(String),
-    /// A file, and a line of it.
+    /// A file, and a line in it.
     File(PathBuf, Option<usize>),
 }
 
 /// A link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
-    /// The bytes of the text that it underlines.
+    /// The bytes of the text that are the link.
     pub range: Range<usize>,
-    /// What it leads to.
+    /// The target.
     pub target: Target,
 }
 
-/// A word before a number, and the element that they name.
+/// A word that precedes a number, and the element that both name.
 type NumberedElement = (&'static str, fn(usize) -> Element);
 
-/// All of them.
+/// All kinds of numbered elements.
 const ELEMENTS: [NumberedElement; 4] = [
     ("triangle", Element::Triangle),
     ("face", Element::Face),
     ("vertex", Element::Vertex),
     ("line", Element::Line),
 ];
-/// The words before the name of a part in quotation marks.
+/// The words that precede the quoted name of a part.
 const PARTS: [&str; 4] = ["part", "group", "object", "material"];
-/// The beginning of messages about files that were written.
+/// The beginning of messages about saved files.
 const SAVED: &str = "Saved ";
 
-/// The links of a text, in its order. `is_file` tells whether there is a file.
+/// The links of a text, in order. `is_file` says whether a path is a file.
 pub fn links(text: &str, is_file: impl Fn(&Path) -> bool) -> Vec<Link> {
     if let Some(path) = text.strip_prefix(SAVED) {
         let range = SAVED.len()..text.len();
@@ -68,7 +68,7 @@ pub fn links(text: &str, is_file: impl Fn(&Path) -> bool) -> Vec<Link> {
     links
 }
 
-/// What a word and the text after it name, and the length of its name in that text.
+/// The target that a word and the text after it name, and the number of bytes of that text that belong to the link.
 fn target(word: &str, after: &str) -> Option<(Target, usize)> {
     let rest = after.strip_prefix(' ')?;
     if let Some((_, element)) = ELEMENTS.iter().find(|(name, _)| *name == word) {

@@ -21,7 +21,7 @@ pub enum Look {
 }
 
 impl Look {
-    /// What these settings show of a film, which is that of a view that needs lights or not.
+    /// The look that these settings give a film. `is_lit` says whether its view needs lights.
     pub fn of(settings: &Settings, is_lit: bool) -> Self {
         if !is_lit {
             Self::plain()

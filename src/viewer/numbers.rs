@@ -30,7 +30,7 @@ pub fn significant(x: f64, digits: usize) -> String {
     }
 }
 
-/// All bits of a number as a hexadecimal float, as `%a` of C writes it: `0x1.8p+1` is 3.
+/// All bits of a number as a hexadecimal float, as C's `%a` writes it: `0x1.8p+1` is 3.
 pub fn hexadecimal(x: f64) -> String {
     /// Bits of the fraction of an f64.
     const BITS: u32 = 52;
@@ -40,7 +40,7 @@ pub fn hexadecimal(x: f64) -> String {
     let bits = x.abs().to_bits();
     let (mut exponent, mut fraction) = ((bits >> BITS) as i32, bits & ((1 << BITS) - 1));
     if exponent == 0 {
-        // A subnormal number: its first bit becomes the one before the point.
+        // A subnormal number: its first set bit moves in front of the point.
         let shift = fraction.leading_zeros() - (u64::BITS - 1 - BITS);
         exponent = 1 - shift as i32;
         fraction = fraction << shift & ((1 << BITS) - 1);

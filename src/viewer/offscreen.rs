@@ -121,7 +121,7 @@ pub fn drawn(
     Ok(pixels)
 }
 
-/// Draws the overlays that are on, in tiles that the device can hold, and passes the pixels of each tile on.
+/// Draws the overlays that are on in tiles that the device can hold. Passes the pixels of each tile to `done`.
 fn draw_tiles(
     gpu: (&wgpu::Device, &wgpu::Queue),
     input: &OverlayInput,
@@ -187,7 +187,7 @@ fn draw_tile(
     read_back(device, queue, canvas.targets.colour(canvas.colour))
 }
 
-/// The longest side of a tile that textures and the buffer that reads it back can have.
+/// The longest side of a tile that fits into a texture and into the buffer that reads it back.
 fn largest_tile(limits: &wgpu::Limits) -> u32 {
     /// A tile of this size takes 200 MB on the GPU.
     const MOST: u32 = 4096;
@@ -198,7 +198,7 @@ fn largest_tile(limits: &wgpu::Limits) -> u32 {
     side
 }
 
-/// A picture's tiles of at most this side.
+/// The tiles of a picture, each with sides of at most `side`.
 fn tiles(size: UVec2, side: u32) -> impl Iterator<Item = PixelRect> {
     let counts = UVec2::new(size.x.div_ceil(side), size.y.div_ceil(side));
     let corners =
@@ -217,7 +217,7 @@ fn cut<T: Copy>(pixels: &[T], width: usize, tile: PixelRect) -> Vec<T> {
         .collect()
 }
 
-/// Passes on each row of a tile with the index of its first pixel in a picture of this width.
+/// Passes each row of a tile to `row`, with the index of its first pixel in a picture of this width.
 fn for_each_row(
     tile: PixelRect,
     pixels: &[[u8; 4]],
@@ -247,7 +247,7 @@ pub fn read_back(
     read_back_words(device, queue, texture, 1)
 }
 
-/// The same for a texture with so many times four bytes per pixel.
+/// Reads back a texture of this many four-byte words per pixel.
 ///
 /// # Errors
 /// [`GpuError::ReadBack`].
@@ -301,7 +301,8 @@ pub(crate) fn read_back_words(
     Ok(pixels.collect())
 }
 
-/// Blends a pixel with premultiplied alpha over one with straight alpha, which the result has, too. All are sRGB-encoded.
+/// Blends a pixel with premultiplied alpha over one with straight alpha. The result has straight alpha; all are
+/// sRGB-encoded.
 fn blend(under: [u8; 4], over: [u8; 4]) -> [u8; 4] {
     const ONE: u32 = 255;
     let rest = ONE - u32::from(over[3]);

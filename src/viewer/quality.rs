@@ -1,4 +1,4 @@
-//! Quality: sets of settings from a draft to a reference.
+//! Quality levels: sets of settings from a draft to a reference.
 
 use crate::settings::Settings;
 use hitscope_core::group::kernel_named;
@@ -29,7 +29,7 @@ pub enum MovingResolution {
     /// As high as the time of a frame allows.
     #[default]
     Automatic,
-    /// The same.
+    /// The full resolution.
     Full,
     /// Half of it in each direction.
     Half,
@@ -51,7 +51,7 @@ impl MovingResolution {
         }
     }
 
-    /// What it is, in words.
+    /// A description, as in the tooltips of [`QUALITY`].
     pub fn words(self) -> &'static str {
         match self {
             Self::Automatic => "automatic resolution",
@@ -61,7 +61,7 @@ impl MovingResolution {
         }
     }
 
-    /// The side of the blocks of pixels in which the picture is traced first; `None` for as small ones as possible.
+    /// The side of the blocks of pixels in the first picture; `None` for the smallest that the time of a frame allows.
     pub fn block(self) -> Option<u32> {
         match self {
             Self::Automatic => None,
@@ -72,11 +72,11 @@ impl MovingResolution {
     }
 }
 
-/// All sets, from fast to accurate.
+/// All levels, from fast to accurate.
 pub static QUALITY: &[Quality] = &[
     Quality {
         title: "Draft",
-        about: "For looking around: the fast kernel, 4 samples, offsets by a scaled epsilon, paths of 3 surfaces, a quarter of the resolution while moving",
+        about: "For looking around: the fast kernel, 4 samples, offsets by a scaled epsilon, paths of up to 3 surfaces, a quarter of the resolution while moving",
         kernel: "fast",
         samples: 4,
         spawn: Some("scaled-epsilon"),
@@ -85,7 +85,7 @@ pub static QUALITY: &[Quality] = &[
     },
     Quality {
         title: "Fast",
-        about: "For quick pictures: the fast kernel, 16 samples, the default offsets, paths of 8 surfaces, automatic resolution while moving",
+        about: "For quick pictures: the fast kernel, 16 samples, the default offsets, paths of up to 8 surfaces, automatic resolution while moving",
         kernel: "fast",
         samples: 16,
         spawn: None,

@@ -1,5 +1,5 @@
-//! A session as plain data: what is open and how it is seen. A part of it is a step of undo; its camera is one that the
-//! commands take, too: `--session`.
+//! A session as plain data: the open file and how it is shown. Its [`Sight`] is also an undo step, and `--session` takes
+//! its camera on the command line.
 //!
 //! Session files are JSON. Unknown fields are ignored; settings that are missing or that no control can set have their
 //! defaults.
@@ -55,10 +55,10 @@ pub struct Sight {
     /// How the scene is shown.
     #[serde(default)]
     pub settings: Settings,
-    /// What the picture is compared with.
+    /// The choices about the comparison.
     #[serde(default)]
     pub comparison: Comparison,
-    /// Hidden parts, and own colours of parts.
+    /// Hidden parts, and custom colours of parts.
     #[serde(default)]
     pub parts: PartsChoice,
     /// The picked pixels.

@@ -183,8 +183,8 @@ impl Settings {
         self.kernel = kernel.to_owned();
     }
 
-    /// The kernel that the view *Disagreement* compares the selected kernel with. It is another one, as a kernel always
-    /// agrees with itself.
+    /// The kernel that the view *Disagreement* compares the selected kernel with. Never the selected kernel, which would
+    /// always agree.
     pub fn against(&self) -> KernelChoice {
         let chosen = kernel_named(&self.against).unwrap_or_else(|| exact_triangle_kernel().into());
         if chosen == self.kernel() {

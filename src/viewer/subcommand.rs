@@ -36,7 +36,7 @@ pub(crate) enum Command {
 }
 
 impl Command {
-    /// Runs it. `all` describes the program's command line.
+    /// Runs it. `all` returns the program's whole command line.
     pub(crate) fn run(&self, all: fn() -> clap::Command) -> Result<(), CommandError> {
         let mut out = BufWriter::new(stdout().lock());
         match self {
@@ -54,7 +54,7 @@ impl Command {
         Ok(out.flush()?)
     }
 
-    /// The threads that its command line asks for.
+    /// The number of threads that its arguments request.
     pub(crate) fn threads(&self) -> ThreadsArg {
         match self {
             Self::Render(args) => args.picture.threads,

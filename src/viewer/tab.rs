@@ -17,7 +17,7 @@ pub enum Tab {
     Mesh,
     /// Speed and accuracy of the kernels in this scene.
     Trade,
-    /// The picture beside another one.
+    /// Comparisons of the picture with another one.
     Compare,
 }
 
@@ -52,7 +52,7 @@ impl Tab {
             Self::Parts => "Groups, materials and shapes of the scene, which can be hidden",
             Self::Mesh => "Contents, flaws and memory of the open file",
             Self::Trade => "Speed and accuracy of each kernel in this scene",
-            Self::Compare => "The picture beside another view, kernel, mesh or picture",
+            Self::Compare => "Compares the picture with another view, kernel, mesh or picture",
         }
     }
 }

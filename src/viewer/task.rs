@@ -40,7 +40,7 @@ impl<T: Send + 'static> Task<T> {
     }
 
     /// The time since the start.
-    pub fn lasted(&self) -> Duration {
+    pub fn elapsed(&self) -> Duration {
         self.start.elapsed()
     }
 
@@ -57,13 +57,13 @@ impl<T: Send + 'static> Task<T> {
     }
 }
 
-/// Runs work whose parallel parts would keep the window's thread waiting in the global pool, in a pool of its own.
+/// Runs work in its own thread pool, so that its parallel parts don't delay the UI thread's work in the global pool.
 pub fn in_own_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     let threads = hitscope_lab::commands::default_thread_count();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     match pool.thread_name(|k| format!("pool {k}")).build() {
         Ok(pool) => pool.install(work),
-        // Without threads, the global pool is better than nothing.
+        // If no threads can be started, the work uses the global pool.
         Err(_) => work(),
     }
 }
@@ -125,10 +125,10 @@ impl<T: Send + 'static> Pending<T> {
         }
     }
 
-    /// How long the task has been running; `None` if it isn't.
-    pub fn lasted(&self) -> Option<Duration> {
+    /// Time since the task began; `None` if it isn't running.
+    pub fn elapsed(&self) -> Option<Duration> {
         match self {
-            Self::Running(task) => Some(task.lasted()),
+            Self::Running(task) => Some(task.elapsed()),
             _ => None,
         }
     }
@@ -149,9 +149,9 @@ impl<K, T> Default for KeyedTask<K, T> {
 }
 
 impl<K: PartialEq, T: Send + 'static> KeyedTask<K, T> {
-    /// How long the task has been running; `None` if it isn't.
-    pub fn lasted(&self) -> Option<Duration> {
-        self.0.as_ref().map(|(_, task)| task.lasted())
+    /// Time since the task began; `None` if it isn't running.
+    pub fn elapsed(&self) -> Option<Duration> {
+        self.0.as_ref().map(|(_, task)| task.elapsed())
     }
 
     /// Drops the task.
@@ -204,7 +204,7 @@ pub(crate) mod sabotage {
         static HELD: RefCell<Option<(&'static str, Receiver<()>)>> = const { RefCell::new(None) };
     }
 
-    /// Holds a task back until it is dropped.
+    /// Makes a task wait until this is dropped.
     pub struct Hold(Sender<()>);
 
     impl Drop for Hold {

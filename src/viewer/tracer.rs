@@ -47,7 +47,7 @@ pub struct Tracer {
     frame_intervals: Times,
     /// Time of the first pass, adapted so that frames meet their target.
     first_pass: Duration,
-    /// The block size of the first pass that the user chose.
+    /// The block size that the user chose for the first pass.
     chosen_step: Option<u32>,
     changed: Option<PixelRect>,
     /// Pixels of the preview that changed and weren't taken before the view began.
@@ -165,7 +165,7 @@ impl Tracer {
             Pass::Samples { .. } => 1,
         };
         let step = match self.chosen_step {
-            // The view is slower than its preview, whose blocks the user chose.
+            // The user chose the preview's blocks, but the view itself is slower.
             Some(_) => self
                 .affordable_step(self.film.size(), false)
                 .max(of_preview),

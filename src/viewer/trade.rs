@@ -44,7 +44,7 @@ pub enum TradeState {
     Measuring,
     /// All kernels have been measured.
     Done,
-    /// The user has cancelled it.
+    /// The user cancelled the measurement.
     Cancelled,
     /// The thread panicked.
     Failed,
@@ -126,11 +126,11 @@ impl Trade {
     }
 
     /// The time since the start.
-    pub fn lasted(&self) -> Duration {
-        self.task.lasted()
+    pub fn elapsed(&self) -> Duration {
+        self.task.elapsed()
     }
 
-    /// Ends the measurement; the rows so far stay.
+    /// Cancels the measurement; the rows so far stay.
     pub fn cancel(&self) {
         self.progress.cancel();
     }

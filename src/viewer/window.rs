@@ -81,7 +81,7 @@ fn fits(size: Vec2, screen: Vec2) -> bool {
 }
 
 /// Runs the window; `None` if another program destroyed it (`xdotool windowclose`, `xkill` by its window), or if it
-/// panicked and that is expected.
+/// panicked and `is_expected` returns `true`.
 ///
 /// X11 then refuses every request for the window, and winit 0.30 panics; this function treats the panic as a
 /// normal end.

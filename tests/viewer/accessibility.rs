@@ -99,7 +99,7 @@ fn every_control_of_every_comparison_has_a_name_and_a_role() {
     let Some(mut window) = app(None) else { return };
     press(&mut window, Key::C);
     for source in Source::ALL {
-        let combo = window.get_by_role_and_label(Role::ComboBox, "Made from");
+        let combo = window.get_by_role_and_label(Role::ComboBox, "Source");
         combo.click();
         window.run_steps(4);
         let entry = window.get_all_by_label(source.title()).last();

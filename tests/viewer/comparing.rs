@@ -214,7 +214,7 @@ fn rasterized_and_traced_triangles_hardly_differ() {
     let Some(mut window) = app(None) else { return };
     wait(&mut window, "all samples", App::is_settled);
     compare(&mut window);
-    choose(&mut window, "Made from", Source::Rasterized.title());
+    choose(&mut window, "Source", Source::Rasterized.title());
     for view in ["Shaded", "Normal", "Depth", "Triangle"] {
         choose(&mut window, "View of B", view);
         let figures = window.state().figures().expect("counted");
@@ -242,8 +242,8 @@ fn shapes_that_are_not_rasterized_are_named() {
     };
     settle(&mut window, "scene.xml");
     compare(&mut window);
-    choose(&mut window, "Made from", Source::Rasterized.title());
-    window.get_by_label("Not drawn, as they aren't triangles: 1 sphere");
+    choose(&mut window, "Source", Source::Rasterized.title());
+    window.get_by_label("Not rasterized, because they aren't triangles: 1 sphere");
 }
 
 #[test]
@@ -253,7 +253,7 @@ fn another_file_is_seen_measured_and_inspected_beside_the_first() {
     };
     let other = write(&folder, "farther.obj", FARTHER);
     compare(&mut window);
-    choose(&mut window, "Made from", Source::Mesh.title());
+    choose(&mut window, "Source", Source::Mesh.title());
     let Some(()) = enter_path(&mut window, "Compare with a file…", &other) else {
         return;
     };
@@ -297,8 +297,8 @@ fn a_file_that_is_loaded_again_is_compared_with_its_earlier_version() {
         return;
     };
     compare(&mut window);
-    choose(&mut window, "Made from", Source::Earlier.title());
-    window.get_by_label("There is no earlier version: the file hasn't been loaded again.");
+    choose(&mut window, "Source", Source::Earlier.title());
+    window.get_by_label("There is no earlier version: the file hasn't been reloaded.");
     let smaller = SQUARE.replace("v 1 1 0", "v 0.25 0.25 0");
     write(&folder, "mesh.obj", &smaller);
     let path = folder.path().join("mesh.obj");
@@ -357,7 +357,7 @@ fn a_reference_picture_sets_the_size_and_has_figures() {
     assert!(found.psnr_db.expect("a difference") > 40.0);
     window.get_by_label("RMSE");
     // Another kind of side B, and the picture fills the window again.
-    choose(&mut window, "Made from", Source::Traced.title());
+    choose(&mut window, "Source", Source::Traced.title());
     assert_ne!(window.state().film().size(), size);
 }
 

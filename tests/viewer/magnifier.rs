@@ -89,7 +89,7 @@ fn numbers_are_decimal_or_exact() {
     window.key_press_modifiers(Modifiers::COMMAND, Key::P);
     window.run_steps(3);
     let field = window.get_by_label("Find a command");
-    field.type_text("exact numbers in pixels");
+    field.type_text("exact pixel values");
     window.run_steps(3);
     press(&mut window, Key::Enter);
     window.run_steps(3);

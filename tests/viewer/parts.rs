@@ -1,4 +1,4 @@
-//! Tests of the list of parts: what is hidden over a reload, own colours, undo and sessions.
+//! Tests of the list of parts: hidden parts across a reload, custom colours, undo and sessions.
 
 use crate::harness::{Window, app_started, press, settle, wait, write};
 use egui::accesskit::Role;
@@ -106,7 +106,7 @@ fn an_own_colour_changes_the_pixels_of_its_part_and_undo_takes_it_away() {
     press(&mut window, Key::Escape);
     wait(&mut window, "the picture", App::is_settled);
     let own = |window: &Window| window.state().parts().own_colour(1);
-    let [r, g, b] = own(&window).expect("an own colour");
+    let [r, g, b] = own(&window).expect("a custom colour");
     assert!(r > g && r > b, "{r} {g} {b}");
     assert!(pixels(&window) != before);
     undo(&mut window);

@@ -192,7 +192,7 @@ pub enum Setting {
     Exposure,
     /// The tint of back faces.
     BackFaces,
-    /// The own colours of parts.
+    /// Custom colours of parts.
     PartColours,
     /// The scale of the view's numbers.
     Scale,

@@ -24,7 +24,7 @@ pub(super) struct Canvas {
     pub rect: Rect,
     pub resolution: UVec2,
     pub pixels_per_point: f32,
-    /// The part of the picture that fills the place, from (0, 0) at the top left to (1, 1) at the bottom right.
+    /// The part of the picture that is shown, from (0, 0) at the top left to (1, 1) at the bottom right.
     pub part: Rect,
 }
 
@@ -41,8 +41,7 @@ impl Canvas {
         }
     }
 
-    /// The place of a picture of another size: in the middle, as large as possible. An enlarged pixel covers a whole number
-    /// of the screen's pixels.
+    /// The place of a picture of another size: centred, as large as possible. Pixels are enlarged by whole factors only.
     pub(super) fn of_picture(available: Rect, pixels_per_point: f32, size: UVec2) -> Self {
         let whole = Self::new(available, pixels_per_point);
         let factors = whole.resolution.as_vec2() / size.as_vec2();
@@ -89,7 +88,7 @@ impl Canvas {
         DVec2::new(part.x.into(), part.y.into()) * camera.resolution().as_dvec2()
     }
 
-    /// Converts a position on the screen to a part of the picture, from (0, 0) to (1, 1).
+    /// Converts a position on the screen to a position in the picture, from (0, 0) to (1, 1).
     pub fn part_at(&self, pos: Pos2) -> Pos2 {
         self.part
             .lerp_inside((pos - self.rect.min) / self.rect.size())
@@ -190,7 +189,7 @@ impl App {
         }
     }
 
-    /// Puts the changes of the traced picture on the screen.
+    /// Uploads the changes of the traced picture.
     fn show_changes(&mut self, ctx: &egui::Context) {
         let changed = self
             .traced
@@ -244,13 +243,13 @@ impl App {
             self.error(error);
         }
         labels.extend(self.magnified_label());
-        self.pixel_numbers_ui(ui, canvas, &camera);
+        self.pixel_values_ui(ui, canvas, &camera);
         labels_ui(ui, canvas, &camera, &labels);
         self.scale_legend_ui(ui, canvas);
         self.marks_ui(&painter, canvas, &input);
     }
 
-    /// Draws rings around the picks, and cross hairs at the marked points.
+    /// Draws rings around the picks, and crosshairs at the marked points.
     fn marks_ui(&self, painter: &egui::Painter, canvas: Canvas, input: &OverlayInput) {
         let camera = &input.camera;
         let marks = [
@@ -272,7 +271,7 @@ impl App {
         }
     }
 
-    /// Without memory for the picture, the lines give theirs back, and the picture is uploaded again after a while.
+    /// Frees the memory of the lines if there is none for the picture, and uploads the picture again after a pause.
     fn retry_without_lines(&mut self, error: &GpuError, ctx: &egui::Context) {
         const PAUSE: Duration = Duration::from_secs(1);
         self.traced.overlay.release();
@@ -317,7 +316,7 @@ impl App {
     }
 }
 
-/// Whether both documents are of one mesh.
+/// Whether both documents show the same mesh.
 fn is_mesh_of(document: &Document, other: &Document) -> bool {
     std::ptr::eq(document.loaded.scene.mesh(), other.loaded.scene.mesh())
 }
@@ -363,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_of_another_size_is_whole_and_in_the_middle() {
+    fn a_picture_of_another_size_is_shown_whole_and_centred() {
         let available = Rect::from_min_max(Pos2::new(0.0, 31.3), Pos2::new(901.7, 640.2));
         for scale in [1.0, 1.5, 2.0] {
             for size in [
@@ -385,7 +384,7 @@ mod tests {
     }
 
     #[test]
-    fn places_in_an_enlarged_picture_are_those_of_its_part() {
+    fn positions_in_a_magnified_picture_are_those_of_its_part() {
         let available = Rect::from_min_size(Pos2::ZERO, egui::vec2(800.0, 600.0));
         let mut canvas = Canvas::new(available, 1.0);
         canvas.part = Rect::from_min_size(Pos2::new(0.5, 0.25), egui::Vec2::splat(1.0 / 64.0));

@@ -27,13 +27,13 @@ pub(crate) enum Purpose {
     ComparePicture,
 }
 
-/// A file dialog: what it shows, and what is done with the file.
+/// A file dialog, and the use of the chosen file.
 struct Row {
     purpose: Purpose,
     spec: DialogSpec,
-    /// The path that the user may want: its folder, and for saving also its name.
+    /// The path that it starts with: the folder, and for saving also the name.
     suggested: fn(&App) -> Option<PathBuf>,
-    /// What is done with the chosen file.
+    /// Uses the chosen file.
     chosen: fn(&mut App, PathBuf, &egui::Context),
 }
 
@@ -116,7 +116,7 @@ static DIALOGS: [Row; 8] = [
     Row {
         purpose: Purpose::CompareMesh,
         spec: DialogSpec {
-            title: "Compare with a mesh",
+            title: "Compare with a file",
             example: "/path/to/mesh.obj",
             is_saving: false,
             filters: &[
@@ -209,7 +209,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_purpose_has_one_row_and_each_title_is_used_once_for_opening_and_saving() {
+    fn each_purpose_has_one_row_and_each_title_is_used_once() {
         for purpose in [
             Purpose::Open,
             Purpose::Save,

@@ -61,8 +61,7 @@ impl App {
         self.feedback.log.add(kind, text, document);
     }
 
-    /// Goes where a link of the log leads: to an element or a part of the scene, or opens a file. Files that the viewer can't
-    /// open are opened by the system.
+    /// Follows a link of the log to an element, a part or a file. The system opens files that the viewer can't.
     pub(super) fn follow(&mut self, target: Target, ctx: &egui::Context) {
         match target {
             Target::Element(element) => self.go_to(element, ctx),
@@ -101,7 +100,7 @@ fn is_openable(path: &Path) -> bool {
     is_mesh || is_scene_file(path) || is_session(path)
 }
 
-/// The address of a file.
+/// The `file:` URL of a file.
 fn file_url(path: &Path) -> String {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let path = path.to_string_lossy().replace('\\', "/");
@@ -119,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn addresses_of_files_have_no_spaces() {
+    fn urls_of_files_have_no_spaces() {
         let url = file_url(Path::new("/a b/ü.png"));
         assert_eq!(url, "file:///a%20b/%C3%BC.png");
     }

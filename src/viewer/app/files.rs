@@ -174,9 +174,9 @@ impl App {
         self.note_warnings();
     }
 
-    /// Adds the document's warnings to the log, after the first one, which is shown.
+    /// Adds the document's warnings to the log, except the first one, which is shown as a notice.
     fn note_warnings(&mut self) {
-        /// The most that are added; the Mesh tab has all.
+        /// Limit on the number of warnings; the Mesh tab lists all.
         const MOST: usize = 100;
         let document = &self.open.document;
         let (name, warnings) = (document.name(), &document.loaded.report.warnings);
@@ -196,7 +196,7 @@ impl App {
         }
     }
 
-    /// Tells when a file is saved.
+    /// Shows a message once a file is saved.
     pub(super) fn poll_saving(&mut self) {
         let Some(result) = self.open.saving.as_ref().and_then(Saving::poll) else {
             return;

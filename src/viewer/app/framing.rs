@@ -1,4 +1,4 @@
-//! Framing of the primitive that is picked, and of its part, whose bounds are found in the background.
+//! Framing of the picked primitive and of its part, whose bounds are computed in the background.
 
 use super::App;
 use super::pick::Pick;
@@ -13,7 +13,7 @@ pub(crate) struct PartBounds {
 }
 
 impl App {
-    /// Frames the primitive that is marked. One without bounds, such as a plane, is only centred.
+    /// Frames the marked primitive. One without bounds, such as a plane, is only centred.
     pub(crate) fn frame_pick(&mut self) {
         /// Distance of the camera, relative to the distance that frames the primitive: shows some of the surface
         /// around it.
@@ -30,7 +30,7 @@ impl App {
         }
     }
 
-    /// Frames all triangles of the group or object of the one that is marked; the whole scene if it has no groups.
+    /// Frames the group or object of the marked triangle; the whole scene if the triangle has none.
     pub(crate) fn frame_part(&mut self, ctx: &egui::Context) {
         let scene = &self.open.document.loaded.scene;
         let Some(primitive) = self.picked.pick.as_ref().and_then(Pick::marked_primitive) else {
@@ -47,7 +47,7 @@ impl App {
         self.picked.part_bounds = Some(PartBounds { scene, task });
     }
 
-    /// Frames a part once its bounds are found, unless another document has been opened.
+    /// Frames a part once its bounds are known, unless another document has been opened.
     pub(super) fn poll_framing(&mut self, ctx: &egui::Context) {
         let Some(PartBounds { scene, task }) = &self.picked.part_bounds else {
             return;

@@ -25,7 +25,7 @@ impl App {
         }
     }
 
-    /// Ends building a tree over the chosen parts, and shows the last ones.
+    /// Stops building a tree over the chosen parts, and goes back to those that are shown.
     pub(super) fn cancel_parts(&mut self) {
         self.open.document.cancel_primitives();
         self.seen.parts.revert();
@@ -36,8 +36,8 @@ impl App {
         &self.seen.parts
     }
 
-    /// Shows everything of a new document, unless it is of the same file, which was loaded again: then the clip stays,
-    /// and so does what was chosen about parts that have the same names. The choice of the grouping stays.
+    /// Shows all of a new document. After a reload of the same file, the clip and the choices about parts with the same
+    /// names stay instead. The grouping always stays.
     pub(super) fn forget_shown_part(&mut self, is_same_file: bool) {
         let parts = std::mem::take(&mut self.seen.parts);
         let choice = if is_same_file {

@@ -54,8 +54,7 @@ pub(super) fn is_environment(path: &Path) -> bool {
 }
 
 impl App {
-    /// The lights of a scene and the options of light transport. `kept` are the lights of the last call, and returned for
-    /// the next one.
+    /// The lights of a scene and the options of light transport. `kept` are the lights that the last call returned.
     pub(super) fn lighting(
         &self,
         settings: &Settings,
@@ -132,7 +131,7 @@ impl App {
         self.traced.environment_file = EnvironmentFile::None;
     }
 
-    /// Loads the file of the environment if it is wanted, and limits its brightness to what the film holds.
+    /// Loads the file of the environment if it is wanted, and limits its brightness to the film's range.
     pub(super) fn poll_environment(&mut self, ctx: &egui::Context) {
         self.load_environment(ctx);
         let settings = &mut self.seen.settings;

@@ -1,28 +1,28 @@
-//! The magnifier: an enlarged part of the picture on the screen. The camera stays.
+//! The magnifier: enlarges a part of the picture on the screen without moving the camera.
 
 use super::App;
 use super::canvas::Canvas;
 use super::navigation::POINTS_PER_E;
-use super::pixel_numbers::PixelNumbers;
+use super::pixel_values::PixelValues;
 use crate::overlay::{Label, Place};
 use egui::{Pos2, Rect, Response, Vec2, pos2};
 
 /// The side of the largest pixel, in points.
 const LARGEST_PIXEL: f32 = 256.0;
-/// The side of a pixel after the command, in points: large enough for its number.
+/// The side of a pixel after the command, in points: large enough for its value.
 const CHOSEN_PIXEL: f32 = 64.0;
 
-/// The part of the picture that fills its place on the screen.
+/// The part of the picture that is shown.
 pub(crate) struct Magnifier {
     /// The factor; 1 for the whole picture.
     zoom: f32,
     /// The middle of the part, from (0, 0) at the top left of the picture to (1, 1) at its bottom right.
     centre: Pos2,
-    /// Whether the scrolling in progress enlarges the picture. egui spreads it over several frames, in which the keys may be
-    /// released and the whole picture be reached.
+    /// Whether the scrolling in progress magnifies the picture. egui spreads scrolling over several frames. Meanwhile the
+    /// keys may be released, or the whole picture may be shown again.
     owns_scroll: bool,
-    /// The numbers in large pixels.
-    pub numbers: PixelNumbers,
+    /// The values in large pixels.
+    pub values: PixelValues,
 }
 
 impl Default for Magnifier {
@@ -31,30 +31,30 @@ impl Default for Magnifier {
             zoom: 1.0,
             centre: pos2(0.5, 0.5),
             owns_scroll: false,
-            numbers: PixelNumbers::default(),
+            values: PixelValues::default(),
         }
     }
 }
 
 impl Magnifier {
-    /// Whether a part is enlarged.
+    /// Whether the picture is magnified.
     pub fn is_on(&self) -> bool {
         self.zoom > 1.0
     }
 
-    /// The enlarged part; the unit square for the whole picture.
+    /// The part that is shown; the unit square for the whole picture.
     pub fn part(&self) -> Rect {
         Rect::from_center_size(self.centre, Vec2::splat(1.0 / self.zoom))
     }
 
-    /// Shows the whole picture. Returns whether a part was enlarged.
+    /// Shows the whole picture. Returns whether it was magnified.
     pub fn leave(&mut self) -> bool {
         let was_on = self.is_on();
         self.set(1.0, self.centre);
         was_on
     }
 
-    /// Multiplies the factor, and keeps a place of the picture where it is on the screen.
+    /// Multiplies the factor, and keeps a position in the picture where it is on the screen.
     fn zoom_at(&mut self, at: Pos2, factor: f32, most: f32) {
         /// Below this, the whole picture is shown.
         const LEAST: f32 = 1.01;
@@ -72,8 +72,8 @@ impl Magnifier {
 }
 
 impl App {
-    /// Enlarges and moves the picture by Ctrl+Shift+scrolling; while a part is enlarged, also by scrolling and dragging.
-    /// Returns whether it used the input.
+    /// Handles Ctrl+Shift+scroll, and while the picture is magnified, also scrolling and dragging. Returns whether it used
+    /// the input.
     pub(super) fn magnify(&mut self, ui: &egui::Ui, response: &Response, canvas: Canvas) -> bool {
         let (modifiers, scroll, pinch) = ui.input(|input| {
             let scroll = input.smooth_scroll_delta();
@@ -101,7 +101,7 @@ impl App {
         was_on || pos.is_some()
     }
 
-    /// Enlarges the pixel under the pointer until its number fits in it, or shows the whole picture again.
+    /// Magnifies the picture at the pointer until the values fit into the pixels, or shows the whole picture again.
     pub(crate) fn toggle_magnifier(&mut self, ctx: &egui::Context) {
         let magnifier = &mut self.shown.magnifier;
         if magnifier.leave() {
@@ -115,19 +115,19 @@ impl App {
         magnifier.zoom_at(within.to_pos2(), zoom, zoom);
     }
 
-    /// Tells in a corner of the picture that it is enlarged.
+    /// The label in a corner of the magnified picture.
     pub(super) fn magnified_label(&self) -> Option<Label> {
         let magnifier = &self.shown.magnifier;
         magnifier.is_on().then(|| Label {
             place: Place::Corner { bar_px: None },
             text: format!(
-                "Enlarged {:.0}×; Esc shows the whole picture",
+                "Magnified {:.0}×; Esc shows the whole picture",
                 magnifier.zoom
             ),
         })
     }
 
-    /// The factor of the enlarged picture; 1 for the whole picture.
+    /// The factor by which the picture is magnified; 1 for the whole picture.
     pub fn magnification(&self) -> f32 {
         self.shown.magnifier.zoom
     }

@@ -26,8 +26,8 @@ impl App {
         self.shown.sheet = (self.shown.sheet != Some(sheet)).then_some(sheet);
     }
 
-    /// Closes the topmost window or message, cancels loading, shows the whole picture instead of an enlarged part, clears
-    /// the marked flaw, or clears the pick: the first of these that applies.
+    /// Closes the topmost window or message, cancels loading, ends magnification, clears the marked flaw, or clears the
+    /// pick: the first of these that applies.
     pub(crate) fn dismiss(&mut self) {
         let is_box_closed = self.shown.palette.dismiss() || self.picked.inspecting.go_to.dismiss();
         if is_box_closed || self.shown.sheet.take().is_some() {
@@ -80,7 +80,7 @@ impl App {
             });
     }
 
-    /// Shows the loading progress, work that takes long, and the notice.
+    /// Shows the loading progress, long-running work and the notice.
     fn notices_ui(&mut self, ctx: &egui::Context) {
         // Without an open document, `hints_ui` shows the progress.
         let loading = self
@@ -133,7 +133,7 @@ impl App {
         }
     }
 
-    /// Shows the log. Returns whether it is closed: by the user, or because a link is followed.
+    /// Shows the log. Returns whether the user closes it or follows a link.
     fn log_ui(&mut self, ctx: &egui::Context) -> bool {
         let document = self.open.document.path.as_deref();
         match self.feedback.log.log_ui(ctx, document) {

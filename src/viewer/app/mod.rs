@@ -8,14 +8,14 @@
 //! | `canvas`, `labels` | the picture with its overlay and marks; texts over it |
 //! | `pointer`, `pick` | clicks on the picture; the picked pixel |
 //! | `navigation`, `gizmo` | drags, scrolling, flying and animated changes of the view; the axis gizmo |
-//! | `magnifier`, `pixel_numbers` | an enlarged part of the picture, and the numbers in its pixels |
+//! | `magnifier`, `pixel_values` | the magnified picture, and the values in its pixels |
 //! | `pictures`, `picture_dialog` | pictures of what is on the screen; pictures of any size |
-//! | `work` | background work that takes long |
+//! | `work` | long-running background work |
 //! | `feedback` | messages: the notice, toasts and the log |
 //! | `inspecting` | the list of picks, measuring, the read-out under the pointer, going to elements |
 //! | `path`, `flaws` | the path of a sample of the picked pixel; the marked flaws |
 //! | `clipping`, `hiding` | the part of the scene that is shown |
-//! | `comparing` | the picture beside another one |
+//! | `comparing` | the comparison with another picture |
 //! | `legend` | the legend in the picture, and its range |
 //! | `light` | lights, environment, exposure |
 //! | `reopening` | continuing in another window after the device was lost |
@@ -54,7 +54,7 @@ mod path;
 mod pick;
 mod picture_dialog;
 mod pictures;
-mod pixel_numbers;
+mod pixel_values;
 mod pointer;
 mod prepare;
 mod reopening;
@@ -140,7 +140,7 @@ pub struct App {
     pictures: Pictures,
     /// Faults of the graphics device.
     faults: Faults,
-    /// That of the window.
+    /// The window's egui context.
     ctx: egui::Context,
     screenshot: Option<Screenshot>,
 }

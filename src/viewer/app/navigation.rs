@@ -69,7 +69,7 @@ impl Navigation {
         (self.flight.is_held, self.flight.is_flying) = (false, false);
     }
 
-    /// Ends a change of the view: the camera is where it was to go.
+    /// Ends a change of the view: the camera is at its destination.
     pub fn end_transition(&mut self, turntable: &mut Turntable) {
         if let Some(transition) = self.transition.take() {
             *turntable = transition.to;

@@ -7,7 +7,7 @@
 //! | [`Picked`] | what is picked: the pixel, its face and path, and the marked flaw |
 //! | [`Shown`] | what the window shows over and beside the picture |
 //! | [`Traced`] | what traces and draws the picture |
-//! | [`Compared`](super::comparing::Compared) | the other side of a comparison; the choices are in [`Seen`] |
+//! | [`Compared`](super::comparing::Compared) | side B of a comparison; the choices are in [`Seen`] |
 
 use super::Sheet;
 use super::dialogs::Dialogs;
@@ -91,7 +91,7 @@ pub(crate) struct Seen {
     pub settings: Settings,
     /// The parts of the scene, which can be hidden.
     pub parts: Parts,
-    /// What the picture is compared with.
+    /// The choices about the comparison.
     pub comparison: Comparison,
     /// The camera.
     pub turntable: Turntable,
@@ -140,7 +140,7 @@ pub(crate) struct Picked {
     pub face_lookup: Option<FaceLookup>,
     /// The flaw that is shown; all of its kind are marked.
     pub flaw: Option<FlawPlace>,
-    /// The search for the bounds of the picked part, which is to be framed.
+    /// The search for the bounds of the part that will be framed.
     pub part_bounds: Option<PartBounds>,
 }
 

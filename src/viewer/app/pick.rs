@@ -27,7 +27,7 @@ pub(crate) struct Pick {
     crossing: Option<usize>,
     /// The face that was hit, once it has been read from the file.
     face: Option<FaceInFile>,
-    /// Whether the ray was traced in the open scene, not in the other one of a comparison.
+    /// Whether the ray was traced in the open scene, not in the scene of side B.
     is_of_open_scene: bool,
     basis: InspectionBasis,
 }
@@ -43,8 +43,8 @@ pub(crate) struct Picking {
 
 impl Picking {
     /// The time since the inspection began.
-    pub fn lasted(&self) -> Duration {
-        self.task.lasted()
+    pub fn elapsed(&self) -> Duration {
+        self.task.elapsed()
     }
 
     /// The crossing that will be marked. If the same ray is inspected again, that of the old pick.
@@ -125,7 +125,7 @@ impl Pick {
         position.map(|position| DVec3::from_array(position) - self.origin)
     }
 
-    /// The primitive at the point that is marked, if it is one of the open scene.
+    /// The primitive at the marked point, if it belongs to the open scene.
     pub fn marked_primitive(&self) -> Option<u32> {
         match self.marked() {
             _ if !self.is_of_open_scene => None,
@@ -189,7 +189,7 @@ impl App {
             .pick
             .as_ref()
             .filter(|pick| !pick.is_of_open_scene);
-        let obstacle = is_other.map(|_| "The picked ray is that of the other scene");
+        let obstacle = is_other.map(|_| "The picked ray belongs to the scene of side B");
         obstacle.or_else(|| self.obstacle_unless(|pick| pick.marked_primitive().is_some()))
     }
 
@@ -231,7 +231,7 @@ impl App {
         self.preferences.tab = Tab::Inspect;
     }
 
-    /// Inspects the picked pixel, or the one that is being inspected, in a scene whose origin has moved.
+    /// Inspects the picked pixel again, or the one being inspected, in a scene whose origin has moved.
     pub(super) fn pick_again(&mut self, shift: DVec3, ctx: &egui::Context) {
         let (pick, picking) = (self.picked.pick.take(), self.picked.picking.take());
         let old = pick.as_ref();

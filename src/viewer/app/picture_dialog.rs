@@ -67,7 +67,7 @@ struct RenderingState {
     /// The traced part in thousandths.
     thousandths: AtomicU32,
     is_cancelled: AtomicBool,
-    /// That of the transparent background.
+    /// Progress of tracing the alpha of a transparent background.
     alpha: Progress,
 }
 
@@ -141,8 +141,8 @@ impl PictureDialog {
         ui.add_enabled(self.format == Format::Png, lines);
         let background = egui::Checkbox::new(&mut self.is_transparent, "Transparent background");
         ui.add_enabled(!compares, background)
-            .on_hover_text("Pixels have the part of their samples that hit something as alpha")
-            .on_disabled_hover_text("Views that compare kernels have no background");
+            .on_hover_text("Alpha is the fraction of a pixel's samples that hit something")
+            .on_disabled_hover_text("Views that compare kernels have no transparent background");
         let render = ui.button("Render");
         let render = render.on_hover_text("Renders the picture and saves it beside the open file");
         if render.clicked() {

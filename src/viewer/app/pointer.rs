@@ -1,7 +1,7 @@
 //! Pointer input on the picture: clicks, and the surface under the pointer. Drags and scrolling are in `navigation`.
 //!
-//! What the pixel under the pointer shows determines the point under the pointer. While the camera moves, the picture on
-//! the screen lags behind the newest camera, and its pixels may be those of several cameras.
+//! The point under the pointer is the one that the pixel there shows. While the camera moves, the picture on the screen
+//! lags behind the newest camera, and its pixels may come from several cameras.
 
 use super::App;
 use super::canvas::Canvas;
@@ -21,7 +21,7 @@ pub(crate) struct Clicks {
 }
 
 impl Clicks {
-    /// Moves the camera of the click to the place where it sees the same in a scene whose origin has moved.
+    /// Moves the camera of the pending click with a scene whose origin has moved.
     pub fn shift(&mut self, by: DVec3) {
         if let Some(click) = &mut self.pending {
             click.shown.camera = click.shown.camera.moved(by);
@@ -137,7 +137,7 @@ impl App {
         self.traced.shown.at(pixel)
     }
 
-    /// What the pixel at a place of the screen shows.
+    /// What the pixel at a position on the screen shows.
     pub(super) fn shown_at(&self, pos: Pos2, canvas: Canvas) -> Option<ShownPixel> {
         let camera = self.shown_camera()?;
         let at = canvas.pixel_of(pos, &camera).max(DVec2::ZERO);

@@ -1,4 +1,4 @@
-//! Continuing in another window: the graphics device was lost, and the next window has a new one.
+//! Continuing in a new window with a new graphics device after the old device was lost.
 
 use super::comparing::Compared;
 use super::{App, NoWgpu};
@@ -25,7 +25,7 @@ impl App {
         is_lost
     }
 
-    /// The app in a new window. Only what was on the device is made again.
+    /// The app in a new window. Only GPU resources are created again.
     ///
     /// # Errors
     /// [`NoWgpu`].
@@ -47,7 +47,7 @@ impl App {
         self.shown.about = AboutSheet::new(&render_state);
         self.traced.picture = Picture::new(&render_state);
         let is_software = render_state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-        // Side B is made again; an earlier version of the file is lost.
+        // Side B is created again, but an earlier version of the file is lost.
         self.compared = Compared::new(&render_state);
         self.traced.overlay = OverlayLayer::new(&render_state, is_software);
         // The whole picture is uploaded again.
@@ -57,12 +57,12 @@ impl App {
         let title = format!("{} – hitscope", self.open.document.name());
         ctx.send_viewport_cmd(ViewportCommand::Title(title));
         self.warn(&format!(
-            "The graphics device was lost and the window opened again: {loss}"
+            "The graphics device was lost, so the window was reopened: {loss}"
         ));
         Ok(self)
     }
 
-    /// Ends what began at a time of the old window's clock.
+    /// Ends what depends on the old window's clock.
     fn forget_times(&mut self) {
         self.navigation.end_transition(&mut self.seen.turntable);
         self.picked.clicks = super::pointer::Clicks::default();

@@ -1,4 +1,4 @@
-//! Tests: without memory on the graphics device, the picture stays or comes back, and a message is shown.
+//! Tests of a lack of memory on the graphics device: a message is shown, and the picture stays or comes back.
 
 use crate::app::App;
 use crate::gpu::upload::shortage;

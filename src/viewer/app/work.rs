@@ -1,6 +1,6 @@
-//! Background work that takes long: it is shown, and the user can cancel it.
+//! Long-running background work: it is shown, and the user can cancel it.
 //!
-//! Loading, and pictures of any size, have bars of their own.
+//! Loading and *Render picture* have their own progress bars.
 
 use super::App;
 use crate::settings::Settings;
@@ -12,14 +12,14 @@ use std::time::Duration;
 const SHOWN_AFTER: Duration = Duration::from_millis(200);
 /// Work that takes longer can be cancelled.
 const CANCELLED_AFTER: Duration = Duration::from_secs(1);
-/// Time between two frames that show it.
+/// Time between two frames while work is running.
 const FRAME: Duration = Duration::from_millis(100);
 
 /// A kind of work.
 pub(super) struct Work {
     title: &'static str,
-    /// How long it has been running; `None` if it isn't.
-    lasted: fn(&App) -> Option<Duration>,
+    /// Time since it began; `None` if it isn't running.
+    elapsed: fn(&App) -> Option<Duration>,
     cancel: fn(&mut App),
 }
 
@@ -27,7 +27,7 @@ pub(super) struct Work {
 static WORK: &[Work] = &[
     Work {
         title: "Packing the scene for the kernel",
-        lasted: |app| app.open.document.packing_lasted(),
+        elapsed: |app| app.open.document.packing_elapsed(),
         cancel: |app| {
             app.open.document.cancel_packing();
             let packed = app.open.document.kernel().info.name;
@@ -36,7 +36,7 @@ static WORK: &[Work] = &[
     },
     Work {
         title: "Packing the scene for the second kernel",
-        lasted: |app| app.open.document.second_packing_lasted(),
+        elapsed: |app| app.open.document.second_packing_elapsed(),
         cancel: |app| {
             let default = Settings::default().view;
             app.seen.settings.keep_view(&default);
@@ -44,17 +44,17 @@ static WORK: &[Work] = &[
     },
     Work {
         title: "Building the tree of the shown parts",
-        lasted: |app| app.open.document.primitives_lasted(),
+        elapsed: |app| app.open.document.primitives_elapsed(),
         cancel: App::cancel_parts,
     },
     Work {
         title: "Inspecting the pixel",
-        lasted: |app| Some(app.picked.picking.as_ref()?.lasted()),
+        elapsed: |app| Some(app.picked.picking.as_ref()?.elapsed()),
         cancel: |app| app.picked.clear_pick(),
     },
     Work {
-        title: "Measuring at the pick",
-        lasted: |app| app.picked.inspecting.picks.detail_task.lasted(),
+        title: "Measuring at the selected pick",
+        elapsed: |app| app.picked.inspecting.picks.detail_task.elapsed(),
         cancel: |app| {
             let picks = &mut app.picked.inspecting.picks;
             (picks.measures_thickness, picks.shows_walk) = (false, false);
@@ -63,21 +63,21 @@ static WORK: &[Work] = &[
     },
     Work {
         title: "Packing the scene for side B",
-        lasted: |app| app.compared.packing_lasted(),
+        elapsed: |app| app.compared.packing_elapsed(),
         cancel: |app| app.seen.comparison.is_on = false,
     },
     Work {
-        title: "Measuring distances between the meshes",
-        lasted: |app| app.compared.measuring_lasted(),
+        title: "Measuring distances between both sides",
+        elapsed: |app| app.compared.measuring_elapsed(),
         cancel: |app| app.seen.comparison.is_on = false,
     },
     Work {
         title: "Measuring speed and accuracy",
-        lasted: |app| {
-            // The tab shows it, too.
+        elapsed: |app| {
+            // The Trade tab shows it itself.
             let is_elsewhere = !app.preferences.shows_panel || app.preferences.tab != Tab::Trade;
             let trade = app.open.trade.as_ref().filter(|_| is_elsewhere)?;
-            (trade.state() == TradeState::Measuring).then(|| trade.lasted())
+            (trade.state() == TradeState::Measuring).then(|| trade.elapsed())
         },
         cancel: |app| {
             if let Some(trade) = &app.open.trade {
@@ -87,29 +87,29 @@ static WORK: &[Work] = &[
     },
 ];
 
-/// Shows a spinner and, after a while, a button that cancels. Returns whether it was clicked.
-pub(crate) fn working_ui(ui: &mut egui::Ui, title: &str, lasted: Duration) -> bool {
+/// Shows a spinner and, after a while, a *Cancel* button. Returns whether it was clicked.
+pub(crate) fn working_ui(ui: &mut egui::Ui, title: &str, elapsed: Duration) -> bool {
     ui.ctx().request_repaint_after(FRAME);
     let row = ui.horizontal(|ui| {
         ui.spinner();
-        ui.label(format!("{title}, {:.1} s", lasted.as_secs_f64()));
-        let is_long = lasted >= CANCELLED_AFTER;
+        ui.label(format!("{title}, {:.1} s", elapsed.as_secs_f64()));
+        let is_long = elapsed >= CANCELLED_AFTER;
         is_long && ui.button("Cancel").clicked()
     });
     row.inner
 }
 
 impl App {
-    /// The work that has lasted so long that it is shown.
+    /// The work that has been running long enough to be shown.
     pub(super) fn long_work(&self, ctx: &egui::Context) -> Vec<(&'static Work, Duration)> {
         let running = WORK
             .iter()
-            .filter_map(|work| Some((work, (work.lasted)(self)?)));
+            .filter_map(|work| Some((work, (work.elapsed)(self)?)));
         let running: Vec<_> = running.collect();
         if !running.is_empty() {
             ctx.request_repaint_after(FRAME);
         }
-        let is_long = |(_, lasted): &(&Work, Duration)| *lasted >= SHOWN_AFTER;
+        let is_long = |(_, elapsed): &(&Work, Duration)| *elapsed >= SHOWN_AFTER;
         running.into_iter().filter(is_long).collect()
     }
 
@@ -119,15 +119,15 @@ impl App {
     }
 }
 
-/// Shows work. Returns that which the user cancels.
+/// Shows work. Returns the work that the user cancels.
 pub(super) fn work_ui(
     ui: &mut egui::Ui,
     running: &[(&'static Work, Duration)],
 ) -> Option<&'static Work> {
     let mut cancelled = None;
-    for &(work, lasted) in running {
+    for &(work, elapsed) in running {
         egui::Frame::popup(ui.style()).show(ui, |ui| {
-            if working_ui(ui, work.title, lasted) {
+            if working_ui(ui, work.title, elapsed) {
                 cancelled = Some(work);
             }
         });
@@ -142,7 +142,7 @@ mod tests {
     use egui_kittest::kittest::Queryable as _;
 
     #[test]
-    fn work_that_takes_long_is_shown_and_cancelled_and_kernel_and_parts_stay() {
+    fn long_work_is_shown_and_cancelling_it_keeps_kernel_and_parts() {
         let Some(mut window) = app(None) else { return };
         let hold = sabotage::hold("pack");
         window
@@ -178,7 +178,7 @@ mod tests {
         window.get_by_label("Cancel").click();
         window.run_steps(3);
         assert!(window.state().parts().choice().shows_all());
-        assert!(window.state().document().primitives_lasted().is_none());
+        assert!(window.state().document().primitives_elapsed().is_none());
         drop(hold);
 
         window

@@ -1,4 +1,4 @@
-//! Commands of the menu *View* that compare the picture with another one.
+//! Commands of the menu *View* for comparisons.
 
 use super::keys::{key, shift};
 use super::{Command, Entry, Menu, Place, lacks_scene};
@@ -7,8 +7,8 @@ use crate::comparison::{Mode, Source};
 use egui::Key;
 
 const COMPARE: Place = Place::submenu(Menu::View, 9, "Compare");
-/// What the picture shows of a comparison.
-pub const COMPARE_MODES: Place = Place::submenu(Menu::View, 9, "Show of the comparison");
+/// The modes of a comparison.
+pub const COMPARE_MODES: Place = Place::submenu(Menu::View, 9, "Comparison mode");
 const SOURCES: Place = Place::submenu(Menu::View, 9, "Compare with");
 
 /// The step of the divider's keys, as a part of the picture's width.
@@ -19,7 +19,7 @@ pub(super) const ROWS: &[Command] = &[
         name: "compare",
         keys: &[key(Key::C)],
         title: "Comparison",
-        tooltip: "Shows another view, kernel, mesh or picture beside the picture, for the same camera",
+        tooltip: "Compares the picture with another view, kernel, mesh or picture, for the same camera",
         place: COMPARE,
         is_on: Some(App::is_comparing),
         obstacle: lacks_scene,
@@ -28,8 +28,8 @@ pub(super) const ROWS: &[Command] = &[
     Command {
         name: "compare-switch",
         keys: &[key(Key::X)],
-        title: "Switch sides",
-        tooltip: "Shows the other side of the comparison alone",
+        title: "Show the other side",
+        tooltip: "Alternates between side A and side B",
         place: COMPARE,
         is_on: None,
         obstacle: App::lacks_comparison,
@@ -38,7 +38,7 @@ pub(super) const ROWS: &[Command] = &[
     Command {
         name: "compare-swap",
         keys: &[shift(Key::X)],
-        title: "Swap the sides",
+        title: "Swap sides",
         tooltip: "Exchanges view, kernel and shading of both sides",
         place: COMPARE,
         is_on: None,
@@ -48,8 +48,8 @@ pub(super) const ROWS: &[Command] = &[
     Command {
         name: "divider-left",
         keys: &[shift(Key::ArrowLeft)],
-        title: "Divider to the left",
-        tooltip: "Moves the divider, so that more of side B is shown",
+        title: "Move divider left",
+        tooltip: "Moves the divider to show more of side B",
         place: COMPARE,
         is_on: None,
         obstacle: App::lacks_comparison,
@@ -58,8 +58,8 @@ pub(super) const ROWS: &[Command] = &[
     Command {
         name: "divider-right",
         keys: &[shift(Key::ArrowRight)],
-        title: "Divider to the right",
-        tooltip: "Moves the divider, so that more of side A is shown",
+        title: "Move divider right",
+        tooltip: "Moves the divider to show more of side A",
         place: COMPARE,
         is_on: None,
         obstacle: App::lacks_comparison,
@@ -87,7 +87,7 @@ pub(super) const ROWS: &[Command] = &[
     },
 ];
 
-/// What the picture can show of a comparison.
+/// The modes as entries.
 pub(super) fn modes(app: &App) -> Vec<Entry> {
     let entry = |mode: Mode| {
         let is_chosen = app.is_comparing() && app.comparison().mode == mode;
@@ -97,7 +97,7 @@ pub(super) fn modes(app: &App) -> Vec<Entry> {
     Mode::ALL.into_iter().map(entry).collect()
 }
 
-/// What side B can be.
+/// The sources of side B as entries.
 pub(super) fn sources(app: &App) -> Vec<Entry> {
     let entry = |source: Source| {
         let is_chosen = app.is_comparing() && app.comparison().source == source;

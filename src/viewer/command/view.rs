@@ -22,37 +22,37 @@ const KERNELS: Place = Place::submenu(Menu::View, 4, "Kernel");
 
 const MAGNIFIER: Place = Place::new(Menu::View, 8);
 
-/// The commands of the enlarged picture, after those of the parts.
+/// The commands of the magnifier, after those of the parts.
 pub(super) const MAGNIFIER_ROWS: &[Command] = &[
     Command {
         name: "magnify",
         keys: &[key(Key::Z)],
-        title: "Zoom into the picture",
-        tooltip: "Enlarges the pixels of the picture at the pointer; the camera stays. Ctrl+Shift+scroll does so by steps",
+        title: "Magnify the picture",
+        tooltip: "Enlarges the pixels at the pointer without moving the camera. Ctrl+Shift+scroll sets the factor",
         place: MAGNIFIER,
         is_on: Some(|app| app.magnification() > 1.0),
         obstacle: lacks_scene,
         run: |app, ctx, _| app.toggle_magnifier(ctx),
     },
     Command {
-        name: "pixel-numbers",
+        name: "pixel-values",
         keys: &[],
-        title: "Numbers in pixels",
-        tooltip: "Writes what the view shows into enlarged pixels",
+        title: "Pixel values",
+        tooltip: "Shows the view's numbers in the pixels of the magnified picture",
         place: MAGNIFIER,
-        is_on: Some(|app| app.shown.magnifier.numbers.is_on),
+        is_on: Some(|app| app.shown.magnifier.values.is_on),
         obstacle: none,
-        run: |app, _, _| app.shown.magnifier.numbers.is_on ^= true,
+        run: |app, _, _| app.shown.magnifier.values.is_on ^= true,
     },
     Command {
-        name: "exact-pixel-numbers",
+        name: "exact-pixel-values",
         keys: &[],
-        title: "Exact numbers in pixels",
-        tooltip: "Writes all bits of the numbers in enlarged pixels, as hexadecimal floats",
+        title: "Exact pixel values",
+        tooltip: "Shows pixel values with all bits, as hexadecimal floats",
         place: MAGNIFIER,
-        is_on: Some(|app| app.shown.magnifier.numbers.is_exact),
+        is_on: Some(|app| app.shown.magnifier.values.is_exact),
         obstacle: none,
-        run: |app, _, _| app.shown.magnifier.numbers.is_exact ^= true,
+        run: |app, _, _| app.shown.magnifier.values.is_exact ^= true,
     },
 ];
 

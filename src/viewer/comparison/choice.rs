@@ -1,4 +1,4 @@
-//! What is compared, and how it is shown, as plain data: it is kept in sessions and in undo steps.
+//! The choices about a comparison as plain data, which is kept in sessions and undo steps.
 
 use crate::settings::Settings;
 use hitscope_core::group::kernel_named;
@@ -20,7 +20,7 @@ pub enum Side {
     B,
 }
 
-/// What the picture shows of a comparison.
+/// How a comparison is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Mode {
     /// Side A.
@@ -30,9 +30,9 @@ pub enum Mode {
     /// A left of a divider, B right of it.
     #[default]
     Wipe,
-    /// The differences of their colours.
+    /// The differences of the colours of both sides.
     Difference,
-    /// The distances of A's surface from B's.
+    /// The distances from A's surface to B's.
     Distance,
 }
 
@@ -57,19 +57,19 @@ impl Mode {
         }
     }
 
-    /// What is shown, in a phrase without a full stop.
+    /// The tooltip.
     pub fn about(self) -> &'static str {
         match self {
-            Self::A => "Shows the window's own picture",
-            Self::B => "Shows the other picture",
-            Self::Wipe => "Shows side A left of a divider, and side B right of it",
+            Self::A => "Shows only the window's own picture",
+            Self::B => "Shows only the other picture",
+            Self::Wipe => "Shows side A left of a divider and side B right of it",
             Self::Difference => "Shows the differences of the colours of both sides",
-            Self::Distance => "Colours the mesh of side A by its distance from that of side B",
+            Self::Distance => "Colours the surface of side A by its distance to that of side B",
         }
     }
 }
 
-/// How side B is made.
+/// The source of side B.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Source {
     /// The open scene, traced.
@@ -79,14 +79,14 @@ pub enum Source {
     Rasterized,
     /// The mesh or scene of another file, traced.
     Mesh,
-    /// The open file before it was loaded again, traced.
+    /// The open file before it was last reloaded, traced.
     Earlier,
     /// A picture in a file.
     Picture,
 }
 
 impl Source {
-    /// All ways to make side B.
+    /// All sources.
     pub const ALL: [Self; 5] = [
         Self::Traced,
         Self::Rasterized,
@@ -101,18 +101,18 @@ impl Source {
             Self::Traced => "This scene, traced",
             Self::Rasterized => "This scene, rasterized",
             Self::Mesh => "Another file",
-            Self::Earlier => "The earlier version",
-            Self::Picture => "A reference picture",
+            Self::Earlier => "Earlier version",
+            Self::Picture => "Reference picture",
         }
     }
 
-    /// How side B is made, in a phrase without a full stop.
+    /// The tooltip.
     pub fn about(self) -> &'static str {
         match self {
-            Self::Traced => "Side B is the open scene with another view, kernel or shading",
-            Self::Rasterized => "The GPU's rasterizer finds the visible triangles of side B",
+            Self::Traced => "Side B is the open scene, traced with another view, kernel or shading",
+            Self::Rasterized => "Side B is the open scene, whose visible triangles the GPU's rasterizer finds",
             Self::Mesh => "Side B is the mesh or scene of another file",
-            Self::Earlier => "Side B is the open file before it was last loaded again",
+            Self::Earlier => "Side B is the open file before it was last reloaded",
             Self::Picture => "Side B is a PNG, EXR or HDR picture",
         }
     }
@@ -122,25 +122,25 @@ impl Source {
         matches!(self, Self::Traced | Self::Mesh | Self::Earlier)
     }
 
-    /// Whether side B is of another scene.
+    /// Whether side B has another scene than side A.
     pub fn is_other_scene(self) -> bool {
         matches!(self, Self::Mesh | Self::Earlier)
     }
 }
 
-/// What is compared, and how it is shown. View, kernel and shading of side B are those of side A where they are `None`.
+/// The choices about a comparison. View, kernel and shading of side B are those of side A where they are `None`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Comparison {
     /// Whether two sides are compared.
     pub is_on: bool,
-    /// What the picture shows.
+    /// How it is shown.
     pub mode: Mode,
-    /// The part of the picture's width that is left of the divider.
+    /// The divider's position, from 0 at the left edge of the picture to 1 at its right edge.
     pub divider: f32,
     /// The factor by which differences are multiplied.
     pub gain: f32,
-    /// How side B is made.
+    /// The source of side B.
     pub source: Source,
     /// Name of side B's view.
     pub view: Option<String>,
@@ -172,7 +172,7 @@ impl Default for Comparison {
 }
 
 impl Comparison {
-    /// The settings of side B, where these are the settings of side A.
+    /// The settings of side B; `of_a` are those of side A.
     pub fn settings(&self, of_a: &Settings) -> Settings {
         let mut settings = of_a.clone();
         if let Some(view) = &self.view {
@@ -182,7 +182,7 @@ impl Comparison {
             settings.keep_kernel(kernel);
         }
         settings.is_smooth = self.is_smooth.unwrap_or(of_a.is_smooth);
-        // Nothing is written over a rasterized picture, which has no noise.
+        // Only traced pictures have noise.
         settings.shows_noise &= self.source.is_traced();
         settings
     }
@@ -198,7 +198,7 @@ impl Comparison {
         of_a.is_smooth = of_b.is_smooth;
     }
 
-    /// Shows only side B, or only side A if that is shown.
+    /// Shows side B alone, or side A alone if side B already is.
     pub fn switch(&mut self) {
         self.mode = match self.mode {
             Mode::B => Mode::A,
@@ -206,12 +206,12 @@ impl Comparison {
         };
     }
 
-    /// Moves the divider by a part of the picture's width.
+    /// Moves the divider by a fraction of the picture's width.
     pub fn move_divider(&mut self, by: f32) {
         self.divider = (self.divider + by).clamp(0.0, 1.0);
     }
 
-    /// Replaces values that the window can't have set by the defaults.
+    /// Replaces values that no control can set with the defaults.
     #[must_use]
     pub fn usable(self) -> Self {
         let default = Self::default();
@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_and_names_that_nobody_can_set_are_replaced() {
+    fn numbers_and_names_that_no_control_can_set_are_replaced() {
         let odd = Comparison {
             divider: -3.0,
             gain: f32::NAN,

@@ -1,9 +1,9 @@
-//! The picture of the differences between both sides, as they are on the screen.
+//! The picture of the differences between both sides.
 
 use rayon::prelude::*;
 
-/// The magnitudes of the differences in each channel, times `gain`. Pixels are sRGB with alpha 255; the pictures have the
-/// same size.
+/// The absolute differences in each channel, times `gain`. Pixels are sRGB with alpha 255; both pictures have the same
+/// size.
 pub fn difference_picture(a: &[[u8; 4]], b: &[[u8; 4]], gain: f32) -> Vec<[u8; 4]> {
     let pixel = |(a, b): (&[u8; 4], &[u8; 4])| {
         let channel = |k: usize| (gain * f32::from(a[k].abs_diff(b[k]))).min(255.0) as u8;

@@ -1,4 +1,4 @@
-//! Distances between the surfaces of both sides, and the map of those of side A.
+//! Distances between the surfaces of both sides, and the distance map.
 
 use glam::Vec3;
 use hitscope_core::colour::{COLOUR_MAPS, ColourScale};
@@ -8,8 +8,8 @@ use hitscope_core::{Camera, Intersector, Scene};
 use hitscope_lab::surface_comparison::{DistancePicture, OneSided, Surface, diagonal};
 use std::sync::Arc;
 
-/// The points of each surface from which distances are measured, besides its vertices. Fewer than the command `compare`
-/// takes by default, because they are measured whenever the scenes change.
+/// Sample points on each surface, besides its vertices. Fewer than the command `compare`'s default, because distances are
+/// measured whenever the scenes change.
 const POINTS: usize = 20_000;
 
 /// The scenes of both sides.
@@ -21,7 +21,7 @@ pub struct SurfacePair {
     pub b: Arc<Scene>,
 }
 
-/// Clips and creases don't matter: distances are those of the whole surfaces.
+/// Ignores clips and creases: distances are measured between the whole surfaces.
 impl PartialEq for SurfacePair {
     fn eq(&self, other: &Self) -> bool {
         self.a.has_shapes_of(&other.a) && self.b.has_shapes_of(&other.b)
@@ -35,11 +35,11 @@ pub struct MeshDistances {
     pub there: OneSided,
     /// From B to A.
     pub back: OneSided,
-    /// The diagonal of the box around both.
+    /// The diagonal of the bounding box of both.
     pub diagonal: f64,
 }
 
-/// A scene as a file without facts about it.
+/// A scene as if loaded from a file, without a report, a view and lights.
 fn bare(scene: &Arc<Scene>) -> LoadedScene {
     LoadedScene {
         scene: Arc::clone(scene),
@@ -51,7 +51,7 @@ fn bare(scene: &Arc<Scene>) -> LoadedScene {
 }
 
 impl MeshDistances {
-    /// Measures the distances of two surfaces.
+    /// Measures the distances between two surfaces.
     ///
     /// # Errors
     /// Why they can't be measured.
@@ -66,9 +66,9 @@ impl MeshDistances {
         })
     }
 
-    /// The colours of distances from A to B.
+    /// The colour scale of distances from A to B.
     pub fn scale(&self) -> Option<ColourScale> {
-        // If all distances are 0, any limit shows the same.
+        // If all distances are 0, any limit gives the same picture.
         let largest = if self.there.max > 0.0 {
             self.there.max
         } else {
@@ -87,9 +87,9 @@ pub struct MapKey {
     pub intersector: Arc<dyn Intersector>,
     /// The camera in the coordinates of side A.
     pub camera: Camera,
-    /// The colours of distances.
+    /// The colour scale of distances.
     pub scale: ColourScale,
-    /// The linear colour where nothing is seen.
+    /// The linear colour of the background.
     pub background: Vec3,
 }
 
@@ -103,7 +103,7 @@ impl PartialEq for MapKey {
     }
 }
 
-/// A picture of side A, coloured by its distance from side B.
+/// A picture of side A, coloured by its distance to side B.
 pub struct DistanceMap {
     /// What it shows.
     pub key: MapKey,
@@ -115,7 +115,7 @@ impl DistanceMap {
     /// Traces the map with one sample per pixel.
     ///
     /// # Errors
-    /// Why there is none.
+    /// Why the distances can't be measured.
     pub fn trace(key: MapKey) -> Result<Self, String> {
         let (a, b) = (bare(&key.pair.a), bare(&key.pair.b));
         let surface = |loaded| Surface::new(loaded).map_err(|error| error.to_string());

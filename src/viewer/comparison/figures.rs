@@ -1,4 +1,4 @@
-//! The figures of the differences between both sides, found in the background.
+//! Figures of the differences between both sides.
 
 use super::rasterized::RasterizedPicture;
 use glam::{UVec2, Vec2, Vec3};
@@ -9,15 +9,15 @@ use std::sync::Arc;
 
 /// The pixels of a side.
 pub enum Pixels {
-    /// As they are on the screen.
+    /// sRGB with alpha 255, as on the screen.
     Display(Vec<[u8; 4]>),
     /// Linear RGB without exposure.
     Linear(Vec<Vec3>),
-    /// Those of a file.
+    /// Pixels of a file.
     File(Arc<PictureFile>),
 }
 
-/// What is compared.
+/// The pictures to compare.
 pub struct Compare {
     /// Width and height of both sides.
     pub size: UVec2,
@@ -25,23 +25,23 @@ pub struct Compare {
     pub a: Pixels,
     /// Side B.
     pub b: Pixels,
-    /// Side B if it is rasterized.
+    /// Side B, if it is rasterized.
     pub rasterized: Option<Arc<RasterizedPicture>>,
 }
 
-/// The figures.
+/// Figures of the differences.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figures {
     /// The differences of the colours.
     pub picture: PictureComparison,
-    /// The differences of what is visible, if side B is rasterized.
+    /// The differences of the visible triangles, if side B is rasterized.
     pub visibility: Option<VisibilityDifference>,
 }
 
 /// The pixels at whose centres a rasterized picture and rays show different triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VisibilityDifference {
-    /// Pixels that show a triangle in one of them.
+    /// Pixels that show a triangle in either picture.
     pub covered: usize,
     /// Pixels that differ.
     pub different: usize,
@@ -70,7 +70,7 @@ impl Pixels {
 }
 
 impl Compare {
-    /// The figures; pixels of which any channel differs are counted.
+    /// Computes the figures. A pixel counts as different if any channel differs.
     ///
     /// # Errors
     /// If the pictures have different sizes.
@@ -97,7 +97,7 @@ fn visibility(picture: &RasterizedPicture) -> VisibilityDifference {
         context.intersector.coherent_hits(&rays, &mut hits);
         let traced = hits.iter().map(|hit| match hit {
             Some(hit) if scene.is_triangle(hit.primitive) => Some(hit.primitive + 1),
-            // A shape that isn't drawn: no triangle can be right there.
+            // A shape that isn't rasterized: the pixel differs whatever is drawn there.
             Some(_) => None,
             None => Some(0),
         });
@@ -122,7 +122,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pixels_that_differ_are_counted_in_any_encoding() {
+    fn different_pixels_are_counted_in_any_encoding() {
         let size = UVec2::new(2, 1);
         let figures = |a, b| {
             let compare = Compare {

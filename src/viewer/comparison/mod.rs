@@ -1,10 +1,10 @@
-//! Comparisons: the window's picture, side A, beside another picture for the same camera, side B.
+//! Comparisons of the window's picture, side A, with another picture for the same camera, side B.
 //!
 //! | file | contents |
 //! |---|---|
-//! | `choice` | what is compared, and how it is shown, as plain data |
+//! | `choice` | the choices about a comparison, as plain data |
 //! | `traced` | a side B that is traced |
-//! | `rasterized` | a side B whose visible surfaces are found by the GPU's rasterizer |
+//! | `rasterized` | a side B whose visible triangles are found by the GPU's rasterizer |
 //! | `reference` | a side B that is a picture in a file |
 //! | `difference` | the picture of the differences |
 //! | `figures` | the figures of the differences |

@@ -1,4 +1,4 @@
-//! A side B whose visible surfaces are found by the GPU's rasterizer, and shaded as in the traced picture.
+//! A side B whose visible triangles are found by the GPU's rasterizer and shaded as in the traced picture.
 
 use crate::gpu::GpuError;
 use crate::gpu::rasterizer::{RasterMesh, RasterPixel, Rasterizer};
@@ -27,11 +27,11 @@ pub struct RasterizedPicture {
 /// The triangles of a scene on the GPU, and the scene.
 type Uploaded = (Arc<Scene>, Arc<RasterMesh>);
 
-/// Draws the newest request, one after the other.
+/// Rasterizes requests in the background, always the newest one next.
 pub struct Rasterized {
     device: wgpu::Device,
     queue: wgpu::Queue,
-    /// Compiled by the first drawing.
+    /// Compiled when the first request is drawn.
     rasterizer: Arc<OnceLock<Rasterizer>>,
     mesh: Option<Uploaded>,
     running: Option<Task<Result<(Uploaded, RasterizedPicture), GpuError>>>,
@@ -39,11 +39,11 @@ pub struct Rasterized {
     /// The request that is being drawn, or was drawn last.
     begun: Option<Request>,
     picture: Option<Arc<RasterizedPicture>>,
-    /// Whether a request couldn't be drawn. No other one is tried then.
+    /// Whether a request couldn't be drawn. No further one is tried then.
     has_failed: bool,
 }
 
-/// Whether a view can be rasterized: one that lets rays start at surfaces can't.
+/// Whether a view can be rasterized: one that traces further rays from surfaces can't.
 fn can_rasterize(view: &Integrator) -> bool {
     !view.needs.lights
 }
@@ -80,8 +80,8 @@ impl Rasterized {
         (!others.is_empty()).then(|| others.join(", "))
     }
 
-    /// Draws a request, now or after the one that is being drawn. A view that can't be rasterized is replaced by the first
-    /// one of the table.
+    /// Draws a request, now or after the one being drawn. A view that can't be rasterized is replaced by the first view of
+    /// the table.
     pub fn request(&mut self, mut request: Request, ctx: &egui::Context) {
         if !can_rasterize(request.integrator) {
             request.integrator = hitscope_core::integrator::INTEGRATORS[0];
@@ -118,10 +118,10 @@ impl Rasterized {
         self.running = Some(Task::spawn("rasterize", ctx, draw));
     }
 
-    /// Collects a drawing. Returns whether there is a new picture.
+    /// Collects a finished picture. Returns whether there is a new one.
     ///
     /// # Errors
-    /// Why a request couldn't be drawn; no other one is tried.
+    /// Why a request couldn't be drawn; no further one is tried.
     pub fn poll(&mut self, ctx: &egui::Context) -> Result<bool, String> {
         let result = match self.running.as_ref().map(Task::poll) {
             None | Some(Ok(None)) => return Ok(false),
@@ -141,7 +141,7 @@ impl Rasterized {
         self.picture.as_ref()
     }
 
-    /// Whether nothing is left to draw.
+    /// Whether the newest request is drawn.
     pub fn is_finished(&self) -> bool {
         self.running.is_none() && (self.begun == self.wanted || self.has_failed)
     }

@@ -10,10 +10,10 @@ use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The most pixels of a reference: the picture has as many, and each needs some hundred bytes.
+/// Limit on the pixels of a reference. Side A has as many, and each takes about a hundred bytes.
 const MOST_PIXELS: u32 = 1 << 25;
 
-/// A picture in a file, and what is shown of it.
+/// A picture in a file, and its pixels encoded for the screen.
 #[derive(Default)]
 pub struct Reference {
     loaded: Option<(PathBuf, Arc<PictureFile>)>,
@@ -26,7 +26,7 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// Starts to load a file unless that is done or under way.
+    /// Starts to load a file, unless it is loaded or being loaded.
     pub fn want(&mut self, path: &Path, max_memory: u64, ctx: &egui::Context) {
         let is_loaded = self.loaded.as_ref().is_some_and(|(known, _)| known == path);
         let is_loading = self
@@ -42,15 +42,15 @@ impl Reference {
         self.loading = Some((path.to_owned(), Task::spawn("reference", ctx, load)));
     }
 
-    /// Has the file loaded again, as it may have changed; until then the picture stays.
+    /// Reloads the file on the next [`want`](Self::want). Until it is loaded, the old picture stays.
     pub fn reload(&mut self) {
         (self.loading, self.is_stale) = (None, true);
     }
 
-    /// Collects a picture that has been loaded. `longest` is the largest width and height.
+    /// Collects a loaded picture. `longest` is the largest width and height allowed.
     ///
     /// # Errors
-    /// Why there is no picture; nothing is loaded then.
+    /// Why there is no picture.
     pub fn poll(&mut self, longest: u32) -> Result<(), String> {
         let Some((path, task)) = &self.loading else {
             return Ok(());
@@ -84,7 +84,7 @@ impl Reference {
         self.loaded.as_ref().map(|(_, picture)| picture)
     }
 
-    /// Encodes the picture for the screen. Returns whether that changed a pixel.
+    /// Encodes the picture for the screen. Returns whether the pixels were encoded anew.
     pub fn develop(&mut self, display: Display) -> bool {
         let Some((_, picture)) = &self.loaded else {
             return false;

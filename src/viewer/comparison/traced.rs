@@ -1,4 +1,4 @@
-//! A side B that is traced: its tracer, and what is shown of its film.
+//! A side B that is traced: its tracer and its developed film.
 
 use crate::gpu::GpuError;
 use crate::look::{Development, Look};
@@ -14,7 +14,7 @@ pub struct TracedSide {
     /// Traces the newest request.
     pub tracer: Tracer,
     development: Development,
-    /// The pixels whose samples the picture on the screen shows.
+    /// What each pixel of the picture on the screen shows.
     pub shown: ShownPixels,
     /// Scene and camera of the picture on the screen.
     pub on_screen: Option<(Arc<Scene>, Camera)>,
@@ -31,8 +31,8 @@ impl TracedSide {
         }
     }
 
-    /// Passes what has changed of the picture to `upload`: its size, all pixels, and the rectangle that changed. Returns
-    /// whether anything has.
+    /// Passes changes of the picture to `upload`: its size, all pixels, and the rectangle that changed. Returns whether
+    /// there were any.
     ///
     /// # Errors
     /// Those of `upload`.

@@ -64,7 +64,7 @@ pub(super) struct Showing {
     wanted: ShownPrimitives,
     /// The scene, packed for a kernel.
     next: Pending<Result<(Scene, KernelChoice, Packed), Cancelled>>,
-    /// Ends building.
+    /// Cancels building.
     progress: Progress,
 }
 
@@ -152,12 +152,12 @@ impl Document {
         Ok(())
     }
 
-    /// How long a tree over the wanted primitives has been being built; `None` if none is.
-    pub fn primitives_lasted(&self) -> Option<Duration> {
-        self.showing.next.lasted()
+    /// Time since building of a tree over the wanted primitives began; `None` if it isn't running.
+    pub fn primitives_elapsed(&self) -> Option<Duration> {
+        self.showing.next.elapsed()
     }
 
-    /// Ends building a tree over the wanted primitives; those that are shown stay.
+    /// Cancels building of a tree over the wanted primitives. The shown primitives stay.
     pub fn cancel_primitives(&mut self) {
         self.showing.progress.cancel();
         self.showing.next = Pending::Unasked;

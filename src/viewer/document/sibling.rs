@@ -1,4 +1,4 @@
-//! A second document of the same scene, which is packed for kernels of its own.
+//! A sibling: a second document of the same scene, packed for its own kernels.
 
 use super::{Document, Packing};
 use crate::task::Pending;
@@ -7,7 +7,7 @@ use hitscope_core::obj::LoadReport;
 use std::sync::Arc;
 
 impl Document {
-    /// A document of the same scene. It shares the mesh and the trees, and knows nothing about the file.
+    /// A document of the same scene. It shares the mesh and the trees, and has no report about the file.
     pub fn sibling(&self) -> Self {
         let loaded = LoadedScene {
             scene: Arc::clone(&self.loaded.scene),
@@ -24,7 +24,7 @@ impl Document {
         sibling
     }
 
-    /// Follows the changes of the document whose sibling this is: its clip, its creases, its hidden parts, its file.
+    /// Takes over changes of the original document: its clip, creases, hidden parts and file.
     pub fn follow(&mut self, original: &Self) {
         if original.has_last_tree() && !self.has_last_tree() {
             // It is the same tree.
@@ -53,7 +53,7 @@ mod tests {
     use hitscope_core::kernel::default_triangle_kernel;
 
     #[test]
-    fn a_sibling_follows_the_clip_and_its_rays_obey_it() {
+    fn a_sibling_takes_over_the_clip() {
         let mut original = Document::embedded(default_triangle_kernel().into());
         let mut sibling = original.sibling();
         let packed = Arc::clone(sibling.intersector());

@@ -31,7 +31,7 @@ impl DepthMesh {
     /// Uploads the triangles of a scene that are shown. Blocks.
     ///
     /// # Errors
-    /// [`GpuError::TooLarge`] if the device allows no buffer for even one triangle, [`GpuError::OutOfMemory`].
+    /// [`GpuError::TooLarge`] if the device's buffers can't hold even one triangle; [`GpuError::OutOfMemory`].
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -86,8 +86,8 @@ fn upload(
     Ok(())
 }
 
-/// Passes on triangles in parts that have at most this many positions each, or three, with indices into the positions of
-/// the part.
+/// Splits triangles into parts of at most `most` positions each, but at least three. Passes each part on with its positions
+/// and with indices into them.
 fn split(
     positions: &[Vec3],
     triangles: &[[u32; 3]],

@@ -1,16 +1,16 @@
-//! Faults of the graphics device, which wgpu reports on any thread.
+//! Errors and loss of the graphics device, which wgpu reports on any thread.
 
 use hitscope_lab::commands::print_line;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// The faults of a device, shared with wgpu's callbacks.
+/// The errors of a device and the reason for its loss, shared with wgpu's callbacks.
 #[derive(Clone, Default)]
 pub struct Faults(Arc<Shared>);
 
 #[derive(Default)]
 struct Shared {
-    /// The errors that weren't taken yet.
+    /// Errors that haven't been taken yet.
     errors: Mutex<Vec<String>>,
     count: AtomicUsize,
     /// Why the device was lost.
@@ -18,7 +18,7 @@ struct Shared {
 }
 
 impl Faults {
-    /// Installs handlers that collect the faults of a device, on which wgpu would otherwise panic. Each fault requests a
+    /// Installs handlers that collect the faults of a device. Without them, wgpu panics on errors. Each fault requests a
     /// repaint.
     pub fn watch(device: &wgpu::Device, ctx: &egui::Context) -> Self {
         let faults = Self::default();
@@ -28,7 +28,7 @@ impl Faults {
             repaint.request_repaint();
         }));
         let (shared, repaint) = (faults.clone(), ctx.clone());
-        // Closing the window also loses the device; then nobody asks for the reason.
+        // Closing the window also loses the device; the reason is unused then.
         device.set_device_lost_callback(move |reason, message| {
             let message = match message.as_str() {
                 "" => format!("{reason:?}").to_lowercase(),
@@ -46,7 +46,7 @@ impl Faults {
         self.errors().push(message);
     }
 
-    /// A poisoned lock still holds the messages.
+    /// The errors. A poisoned lock still holds them.
     fn errors(&self) -> std::sync::MutexGuard<'_, Vec<String>> {
         self.0.errors.lock().unwrap_or_else(PoisonError::into_inner)
     }

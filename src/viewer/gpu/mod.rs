@@ -1,7 +1,7 @@
 //! GPU drawing: the traced picture ([`picture`]) and the overlay ([`drawing`]), which consists of the mesh's
 //! depth ([`depth`]), that of other shapes ([`traced`]) and [`lines`], all for the same [`view`]. The [`rasterizer`]
 //! finds the visible triangles for a comparison with the traced picture. [`adapter`]
-//! opens devices, [`faults`] collects their errors.
+//! opens devices, and [`faults`] collects their errors.
 
 pub mod adapter;
 pub mod depth;

@@ -1,7 +1,7 @@
-//! The rasterizer: finds the triangle that each pixel's centre shows by drawing all triangles with a depth buffer.
+//! The rasterizer: finds the triangle visible at each pixel's centre by drawing all triangles with a depth buffer.
 //!
-//! The lecture's other way to find what is visible. A pixel holds the triangle and the barycentric coordinates that the
-//! GPU interpolates, so that the views' own code can shade it.
+//! A pixel holds the triangle and the barycentric coordinates that the GPU interpolates, so that the views' own code can
+//! shade it.
 
 use super::slices::{Pace, Slices, submit_and_wait};
 use super::upload::buffers;
@@ -15,11 +15,11 @@ use std::ops::Range;
 /// Appended to [`view::SHADER`](super::view::SHADER).
 pub const SHADER: &str = include_str!("../../../shaders/rasterized.wgsl");
 
-/// The pixels: four numbers of 32 bits.
+/// The format of pixels: four 32-bit words.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 const WORDS: u32 = 4;
 
-/// What a pixel's centre shows. Twin of the output of `fs_main` in shaders/rasterized.wgsl.
+/// The triangle visible at a pixel's centre. Twin of the output of `fs_main` in shaders/rasterized.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct RasterPixel {
@@ -87,7 +87,7 @@ impl Rasterizer {
         })
     }
 
-    /// Draws the triangles: what each pixel shows, row by row from the top. Blocks; only one drawing may run at a time.
+    /// Draws the triangles. Returns the pixels, row by row from the top. Blocks; only one drawing may run at a time.
     ///
     /// # Errors
     /// See [`GpuError`].
@@ -133,7 +133,7 @@ impl Rasterizer {
             .collect())
     }
 
-    /// The commands that draw these ranges of the mesh's buffers, after the targets are cleared if they are the first.
+    /// The commands that draw ranges of the mesh's buffers. Before the first ranges, they clear the targets.
     fn commands(
         &self,
         mesh: &RasterMesh,

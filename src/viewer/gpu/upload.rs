@@ -6,7 +6,7 @@ use super::slices::submit_and_wait;
 /// Bytes per piece: some milliseconds of copying on a software GPU.
 const PIECE: usize = 4 << 20;
 
-/// Makes something that takes memory of the GPU.
+/// Creates a GPU resource, and checks that there was memory for it.
 ///
 /// # Errors
 /// [`GpuError::OutOfMemory`].
@@ -61,7 +61,7 @@ pub(super) fn items_per_buffer<T>(device: &wgpu::Device) -> usize {
 /// Buffers with these items, each within the device's size limit and with the number of its items.
 ///
 /// # Errors
-/// [`GpuError::TooLarge`] if the device allows no buffer for even one item, [`GpuError::OutOfMemory`].
+/// [`GpuError::TooLarge`] if the device's buffers can't hold even one item; [`GpuError::OutOfMemory`].
 pub(super) fn buffers<T: bytemuck::NoUninit>(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
@@ -77,7 +77,7 @@ pub(super) fn buffers<T: bytemuck::NoUninit>(
     parts.map(upload).collect()
 }
 
-/// A lack of memory for tests.
+/// A simulated lack of memory for tests.
 #[cfg(test)]
 pub(crate) mod shortage {
     use super::GpuError;
@@ -86,7 +86,7 @@ pub(crate) mod shortage {
     /// Devices without free memory.
     static FULL: Mutex<Vec<wgpu::Device>> = Mutex::new(Vec::new());
 
-    /// Lets all allocations on a device fail, or succeed again.
+    /// Makes all allocations on a device fail, or succeed again.
     pub fn set(device: &wgpu::Device, is_full: bool) {
         let mut full = FULL.lock().expect("never poisoned");
         full.retain(|other| other != device);

@@ -89,7 +89,7 @@ impl ViewUniform {
         let whole = Vec2::from_array(self.viewport).as_dvec2();
         let (min, size) = (part.min.as_dvec2(), (part.max - part.min).as_dvec2());
         let scale = whole / size;
-        // The part's coordinates from -1 to 1 are scaled and shifted ones of the whole picture; y points up, pixels down.
+        // Clip coordinates of the part are those of the whole picture, scaled and shifted. y points up, pixel rows down.
         let shift_x = (whole.x - 2.0 * min.x - size.x) / size.x;
         let shift_y = (size.y - whole.y + 2.0 * min.y) / size.y;
         for column in &mut self.clip_from_eye {

@@ -55,7 +55,7 @@ pub struct OverlayLayer {
     lines_camera: Option<Camera>,
     /// The slots of the last drawing's lines.
     wanted: BTreeSet<usize>,
-    /// The size of the picture for which there was no memory.
+    /// The picture size for which there wasn't enough memory.
     refused: Option<UVec2>,
     is_complete: bool,
 }
@@ -101,7 +101,7 @@ impl OverlayLayer {
         self.draw_in(Motion::Still, input, overlays, ctx)
     }
 
-    /// The same while the camera moves. Shapes other than meshes then have no outlines and hide no lines, since that takes
+    /// Draws while the camera moves. Shapes other than meshes have no outlines and hide no lines then, because that takes
     /// one traced ray per pixel of each view. On a software GPU nothing is drawn, so that the picture can keep up.
     ///
     /// # Errors
@@ -189,7 +189,7 @@ impl OverlayLayer {
         Ok(texture)
     }
 
-    /// Gives the memory of the lines back. They are uploaded again when they are drawn next.
+    /// Frees the memory of the lines. They are uploaded again when they are next drawn.
     pub fn release(&mut self) {
         self.painter = Painter::new(Arc::clone(&self.overlay), self.is_software);
         self.scene = None;

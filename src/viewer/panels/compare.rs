@@ -1,4 +1,4 @@
-//! The tab *Compare*: the sides of a comparison, how it is shown, and its figures.
+//! The tab *Compare*: the sides, the mode and the figures of a comparison.
 
 use super::{row_ui, section_ui};
 use crate::command::{COMPARE_MODES, Commands};
@@ -15,7 +15,7 @@ use hitscope_core::integrator::{INTEGRATORS, Integrator};
 use hitscope_lab::picture_comparison::PictureComparison;
 use hitscope_lab::surface_comparison::{DistanceFigures, OneSided};
 
-/// What the tab shows besides the choices.
+/// The contents of the tab besides the choices.
 pub struct CompareView<'a> {
     /// The kernels of the scene's shapes.
     pub kernels: Vec<ShapeKernels>,
@@ -27,7 +27,7 @@ pub struct CompareView<'a> {
     pub is_loading_picture: bool,
     /// The shapes that aren't rasterized.
     pub not_drawn: Option<String>,
-    /// Whether there is no earlier version.
+    /// Whether the earlier version is missing.
     pub lacks_earlier: bool,
     /// Width and height of both sides, if they differ.
     pub sizes: Option<[UVec2; 2]>,
@@ -39,7 +39,7 @@ pub struct CompareView<'a> {
     pub map_status: Option<&'static str>,
 }
 
-/// Shows the tab: the settings of side A, and what it is compared with. Returns whether the user cancels loading.
+/// Shows the tab. Returns whether the user cancels loading.
 #[must_use]
 pub fn compare_ui(
     ui: &mut egui::Ui,
@@ -49,7 +49,7 @@ pub fn compare_ui(
 ) -> bool {
     commands.check_box_ui(ui, "compare");
     if !comparison.is_on {
-        ui.label(RichText::new("Shows the picture beside another one for the same camera.").weak());
+        ui.label(RichText::new("Compares the picture with another one for the same camera.").weak());
         return false;
     }
     ui.horizontal_wrapped(|ui| {
@@ -105,7 +105,7 @@ fn mode_ui(ui: &mut egui::Ui, comparison: &mut Comparison, view: &CompareView<'_
     }
 }
 
-/// The way side B is made, with its file. Returns whether the user cancels loading.
+/// The source of side B, with its file. Returns whether the user cancels loading.
 fn source_ui(
     ui: &mut egui::Ui,
     comparison: &mut Comparison,
@@ -113,7 +113,7 @@ fn source_ui(
     commands: &Commands,
 ) -> bool {
     ui.horizontal(|ui| {
-        let label = ui.label("Made from");
+        let label = ui.label("Source");
         let combo = ComboBox::from_id_salt("source")
             .selected_text(comparison.source.title())
             .width(180.0)
@@ -138,7 +138,7 @@ fn source_ui(
                 .weak(),
             );
             if let Some(shapes) = &view.not_drawn {
-                ui.label(format!("Not drawn, as they aren't triangles: {shapes}"));
+                ui.label(format!("Not rasterized, because they aren't triangles: {shapes}"));
             }
         }
         Source::Mesh => {
@@ -152,10 +152,10 @@ fn source_ui(
                     ui.spinner();
                 }
             });
-            ui.label(RichText::new("Side A takes the size of the reference.").weak());
+            ui.label(RichText::new("Side A is traced at the size of the reference picture.").weak());
         }
         Source::Earlier if view.lacks_earlier => {
-            ui.label("There is no earlier version: the file hasn't been loaded again.");
+            ui.label("There is no earlier version: the file hasn't been reloaded.");
         }
         Source::Earlier => {}
     }
@@ -204,7 +204,7 @@ fn looks_of_b_ui(
     comparison: &mut Comparison,
     view: &CompareView<'_>,
 ) {
-    const AS_A: Option<&str> = Some("as A");
+    const AS_A: Option<&str> = Some("same as A");
     let of_b = comparison.settings(of_a);
     let is_rasterized = comparison.source == Source::Rasterized;
     let rasterized: Vec<&Integrator> = Rasterized::views().collect();
@@ -266,7 +266,7 @@ fn shadings() -> Choices {
     [false, true].map(choice).to_vec()
 }
 
-/// Shows a menu of choices, after the title of having none, if that is possible.
+/// Shows a drop-down list of choices. Its first entry is `none`, if there may be no choice.
 fn choice_ui(
     ui: &mut egui::Ui,
     title: &str,
@@ -305,7 +305,7 @@ fn choice_ui(
 fn figures_ui(ui: &mut egui::Ui, comparison: &Comparison, view: &CompareView<'_>) {
     if let Some([a, b]) = view.sizes {
         ui.label(format!(
-            "Both sides differ in size: {}×{} and {}×{} pixels",
+            "The sides differ in size: {}×{} and {}×{} pixels",
             a.x, a.y, b.x, b.y
         ));
     }
@@ -315,7 +315,7 @@ fn figures_ui(ui: &mut egui::Ui, comparison: &Comparison, view: &CompareView<'_>
             visibility_ui(ui, visibility);
         }
     } else if view.sizes.is_none() {
-        ui.label("The differences are counted once both pictures are there.");
+        ui.label("The figures appear once both sides have pictures.");
     }
     if comparison.source.is_other_scene() {
         match view.distances {
@@ -353,13 +353,13 @@ fn picture_ui(ui: &mut egui::Ui, found: &PictureComparison) {
             row_ui(ui, "Largest", text);
         }
         if found.non_finite_pixels > 0 {
-            row_ui(ui, "Not finite", found.non_finite_pixels);
+            row_ui(ui, "Non-finite pixels", found.non_finite_pixels);
         }
     });
 }
 
 fn visibility_ui(ui: &mut egui::Ui, found: VisibilityDifference) {
-    section_ui(ui, "Visible triangles at the pixels' centres", |ui| {
+    section_ui(ui, "Visible triangles at pixel centres", |ui| {
         let VisibilityDifference { covered, different } = found;
         row_ui(ui, "Pixels", format!("{different} of {covered} differ"));
     });
@@ -369,8 +369,8 @@ fn distances_ui(ui: &mut egui::Ui, distances: &MeshDistances) {
     let (there, back) = (&distances.there, &distances.back);
     let both = DistanceFigures::both_ways(there.figures(), back.figures());
     let relative = both.relative_to(distances.diagonal);
-    section_ui(ui, "Distances of A from B", |ui| one_sided_ui(ui, there));
-    section_ui(ui, "Distances of B from A", |ui| one_sided_ui(ui, back));
+    section_ui(ui, "Distances from A to B", |ui| one_sided_ui(ui, there));
+    section_ui(ui, "Distances from B to A", |ui| one_sided_ui(ui, back));
     section_ui(ui, "Both ways", |ui| {
         for (name, length, part) in [
             ("Mean", both.mean, relative.mean),
@@ -387,7 +387,7 @@ fn distances_ui(ui: &mut egui::Ui, distances: &MeshDistances) {
 fn one_sided_ui(ui: &mut egui::Ui, side: &OneSided) {
     row_ui(ui, "Mean", significant(side.mean, 5));
     row_ui(ui, "RMS", significant(side.rms, 5));
-    row_ui(ui, "99 % below", significant(side.p99, 5));
+    row_ui(ui, "99th percentile", significant(side.p99, 5));
     let at = side.worst.position.map(|x| significant(x, 6)).join(", ");
     row_ui(
         ui,

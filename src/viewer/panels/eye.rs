@@ -1,11 +1,11 @@
-//! A button with an eye, which is open for what is shown and struck through for what is hidden.
+//! An eye button: an open eye for what is shown, a crossed-out one for what is hidden.
 
 use egui::{Response, Role, Sense, Shape, Stroke, Vec2, WidgetInfo, vec2};
 
-/// The number of segments of a lid.
+/// The number of line segments of a lid.
 const SEGMENTS: i8 = 12;
 
-/// Shows the button; `None` for what is partly shown. A click changes nothing by itself.
+/// Shows the button; `is_shown` is `None` for what is partly shown. The caller handles clicks.
 pub fn eye_ui(ui: &mut egui::Ui, is_shown: Option<bool>, name: &str) -> Response {
     let size = Vec2::splat(ui.spacing().interact_size.y);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());

@@ -21,7 +21,7 @@ pub const DEPTH_LIMITS: RangeInclusive<u32> = 1..=1000;
 pub const BRIGHTNESSES: RangeInclusive<f32> = 0.0..=100.0;
 /// Rotations of the light from far away, in degrees.
 pub const ROTATIONS: RangeInclusive<f32> = 0.0..=360.0;
-/// Exposures within reach of the slider, in stops; those of [`EXPOSURES`] can be typed.
+/// The slider's range of exposures, in stops; the others of [`EXPOSURES`] can be typed.
 const DRAGGED_EXPOSURES: RangeInclusive<f32> = -10.0..=10.0;
 /// Limits on the time of tracing, in seconds.
 pub const TIME_LIMITS_S: RangeInclusive<f32> = 1.0..=86_400.0;
@@ -145,7 +145,7 @@ fn exposure_ui(ui: &mut egui::Ui, settings: &mut Settings) {
         let slider = ui.add(slider).labelled_by(label.id);
         let (least, most) = (EXPOSURES.start(), EXPOSURES.end());
         slider.on_hover_text(format!(
-            "Each stop doubles the brightness of the picture; {least} to {most} can be typed"
+            "Each stop doubles the brightness of the picture. Values from {least} to {most} can be typed"
         ));
         settings.exposure_stops = settings.exposure_stops.clamp(*least, *most);
     });

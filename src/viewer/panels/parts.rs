@@ -1,5 +1,4 @@
-//! The Parts tab: groups, materials or shapes of the scene, each with an eye that shows and hides it, and
-//! with a colour.
+//! The Parts tab: groups, materials or shapes of the scene, each with an eye button and a colour.
 
 use super::eye::eye_ui;
 use crate::command::Commands;
@@ -9,7 +8,7 @@ use hitscope_core::counts::counted;
 
 /// Height of the lowest list in points.
 const MIN_HEIGHT: f32 = 120.0;
-/// sRGB of the colour button of a part that isn't a material and has no colour of its own.
+/// sRGB of the colour button of a part that isn't a material and has no custom colour.
 const VARIOUS: [u8; 3] = [160; 3];
 
 /// Shows the tab; `picked` is the part of the picked primitive.
@@ -62,12 +61,12 @@ pub fn parts_ui(
 
 fn row_ui(ui: &mut egui::Ui, parts: &mut Parts, list: &PartList, number: usize, is_picked: bool) {
     let part = &list.parts[number];
-    let name = part.name.name.as_str();
+    let name = part.key.name.as_str();
     ui.push_id(number, |ui| {
         ui.horizontal(|ui| {
             let state = parts.is_shown(number);
             let eye = eye_ui(ui, state, &format!("Show {name}"))
-                .on_hover_text("Shows or hides the part; with Alt, shows it alone");
+                .on_hover_text("Click shows or hides the part; Alt+click shows only this part");
             if eye.clicked() && ui.input(|input| input.modifiers.alt) {
                 parts.show_only(number);
             } else if eye.clicked() {
@@ -82,34 +81,34 @@ fn row_ui(ui: &mut egui::Ui, parts: &mut Parts, list: &PartList, number: usize, 
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let only = ui.small_button("Only");
                 let only = only.accessible_name(format!("Show only {name}"));
-                if only.on_hover_text("Shows the part alone").clicked() {
+                if only.on_hover_text("Shows only this part").clicked() {
                     parts.show_only(number);
                 }
                 ui.label(RichText::new(part.count.to_string()).weak())
-                    .on_hover_text("The number of its triangles or other shapes");
+                    .on_hover_text("Number of triangles or other shapes");
             });
         });
     });
 }
 
-/// The colour of a part: its own one or that of its material.
+/// The colour of a part: a custom one, or that of its material.
 fn colour_ui(ui: &mut egui::Ui, parts: &mut Parts, part: &Part, number: usize) {
-    let name = part.name.name.as_str();
+    let name = part.key.name.as_str();
     let own = parts.own_colour(number);
     let shown = own.or(part.colour).unwrap_or(VARIOUS);
     let mut srgb = shown;
     let button = ui
         .color_edit_button_srgb(&mut srgb)
         .accessible_name(format!("Colour of {name}"))
-        .on_hover_text("Gives the part its own colour in the view Shaded");
+        .on_hover_text("Sets a custom colour of the part in the view Shaded");
     // The picker also reports changes by rounding.
     if button.changed() && srgb != shown {
         parts.colour(number, Some(srgb));
     }
     if own.is_some() {
         let reset = ui.small_button("Reset");
-        let reset = reset.accessible_name(format!("Remove the own colour of {name}"));
-        let reset = reset.on_hover_text("Removes the part's own colour");
+        let reset = reset.accessible_name(format!("Reset the colour of {name}"));
+        let reset = reset.on_hover_text("Removes the custom colour");
         if reset.clicked() {
             parts.colour(number, None);
         }

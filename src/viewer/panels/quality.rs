@@ -24,7 +24,7 @@ pub fn quality_ui(
         }
         opens_details = ui
             .selectable_label(chosen.is_none(), "Custom")
-            .on_hover_text("Opens the details. On if the settings match none of the levels")
+            .on_hover_text("Opens the details. Selected while the settings match none of the levels")
             .clicked();
     });
     CollapsingHeader::new("Details")
@@ -43,15 +43,15 @@ pub fn quality_ui(
     }
 }
 
-/// Shows what a level sets.
+/// Shows the settings that a level determines.
 fn details_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     let depth = settings.depth_limit();
-    let depth = depth.map_or("any number".to_owned(), |limit| format!("{limit} at most"));
+    let depth = depth.map_or("none".to_owned(), |limit| limit.to_string());
     for (name, value) in [
         ("Kernel", settings.kernel().info.short_name().to_owned()),
         ("Samples", settings.samples.to_string()),
-        ("Rays leave by", settings.spawn().title.to_owned()),
-        ("Surfaces", depth),
+        ("Spawn policy", settings.spawn().title.to_owned()),
+        ("Depth limit", depth),
     ] {
         row_ui(ui, name, value);
     }

@@ -40,7 +40,7 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
                 (rows.len() + 1).min(trade.kernel_count()),
                 trade.kernel_count()
             );
-            if working_ui(ui, &title, trade.lasted()) {
+            if working_ui(ui, &title, trade.elapsed()) {
                 trade.cancel();
             }
         }

@@ -1,18 +1,18 @@
-//! What the user chose about parts, by their names, so that it outlives a reload and fits in a session.
+//! The user's choices about parts by name, so that they survive reloads and can be stored in sessions.
 
-use super::list::{Grouping, PartName};
+use super::list::{Grouping, PartKey};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
-/// Which parts are hidden, and their own colours.
+/// Hidden parts, and custom colours of parts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PartsChoice {
-    /// Whether a primitive is hidden if no rule is about one of its parts.
+    /// Whether primitives are hidden that no rule applies to.
     hides_others: bool,
-    /// Of the rules about a primitive's parts, the last one counts.
+    /// The last rule about any of a primitive's parts applies.
     rules: Vec<Rule>,
-    /// Likewise.
+    /// The last colour of any of a primitive's parts applies.
     colours: Vec<OwnColour>,
 }
 
@@ -20,15 +20,15 @@ pub struct PartsChoice {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Rule {
     #[serde(flatten)]
-    part: PartName,
+    part: PartKey,
     is_shown: bool,
 }
 
-/// The own colour of a part.
+/// The custom colour of a part.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct OwnColour {
     #[serde(flatten)]
-    part: PartName,
+    part: PartKey,
     srgb: [u8; 3],
 }
 
@@ -38,13 +38,13 @@ impl PartsChoice {
         !self.hides_others && self.rules.iter().all(|rule| rule.is_shown)
     }
 
-    /// Whether primitives are shown about whose parts there is no rule.
+    /// Whether primitives are shown that no rule applies to.
     pub fn shows_others(&self) -> bool {
         !self.hides_others
     }
 
     /// Shows or hides a part.
-    pub fn show(&mut self, part: &PartName, is_shown: bool) {
+    pub fn show(&mut self, part: &PartKey, is_shown: bool) {
         self.rules.retain(|rule| rule.part != *part);
         self.rules.push(Rule {
             part: part.clone(),
@@ -52,8 +52,8 @@ impl PartsChoice {
         });
     }
 
-    /// Shows a part alone.
-    pub fn show_only(&mut self, part: &PartName) {
+    /// Shows only this part.
+    pub fn show_only(&mut self, part: &PartKey) {
         self.show_all();
         self.hides_others = true;
         self.show(part, true);
@@ -73,14 +73,14 @@ impl PartsChoice {
         }
     }
 
-    /// The own colour of a part.
-    pub fn colour_of(&self, part: &PartName) -> Option<[u8; 3]> {
+    /// The custom colour of a part.
+    pub fn colour_of(&self, part: &PartKey) -> Option<[u8; 3]> {
         let own = self.colours.iter().find(|own| own.part == *part);
         own.map(|own| own.srgb)
     }
 
-    /// Gives a part its own colour; `None` takes it away.
-    pub fn colour(&mut self, part: &PartName, srgb: Option<[u8; 3]>) {
+    /// Sets the custom colour of a part; `None` removes it.
+    pub fn colour(&mut self, part: &PartKey, srgb: Option<[u8; 3]>) {
         let known = self.colours.iter_mut().find(|own| own.part == *part);
         match (srgb, known) {
             (Some(srgb), Some(own)) => own.srgb = srgb,
@@ -92,13 +92,13 @@ impl PartsChoice {
         }
     }
 
-    /// The own colours, in the order in which they were given.
+    /// The custom colours, in the order in which they were first set.
     pub fn colours(&self) -> impl Iterator<Item = [u8; 3]> {
         self.colours.iter().map(|own| own.srgb)
     }
 
-    /// The rules about parts of a grouping: for each part the number of its rule, and whether the rule shows it.
-    pub(super) fn rules_by(&self, grouping: Grouping) -> HashMap<&PartName, (usize, bool)> {
+    /// The rules about parts of a grouping: the number of each part's rule, and whether the rule shows it.
+    pub(super) fn rules_by(&self, grouping: Grouping) -> HashMap<&PartKey, (usize, bool)> {
         let numbered = self.rules.iter().enumerate();
         numbered
             .filter(|(_, rule)| rule.part.grouping == grouping)
@@ -106,8 +106,8 @@ impl PartsChoice {
             .collect()
     }
 
-    /// The numbers of the own colours of a grouping's parts, counted from 1.
-    pub(super) fn colours_by(&self, grouping: Grouping) -> HashMap<&PartName, u32> {
+    /// The numbers of the custom colours of a grouping's parts, counted from 1.
+    pub(super) fn colours_by(&self, grouping: Grouping) -> HashMap<&PartKey, u32> {
         let numbered = (1..).zip(&self.colours);
         numbered
             .filter(|(_, own)| own.part.grouping == grouping)
@@ -115,8 +115,8 @@ impl PartsChoice {
             .collect()
     }
 
-    /// The parts with own colours.
-    pub(super) fn coloured(&self) -> Vec<PartName> {
+    /// The parts with custom colours.
+    pub(super) fn coloured(&self) -> Vec<PartKey> {
         self.colours.iter().map(|own| own.part.clone()).collect()
     }
 }

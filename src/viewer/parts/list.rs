@@ -5,21 +5,21 @@ use hitscope_core::tone::Display;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
-/// What makes a part.
+/// How primitives are grouped into parts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Grouping {
-    /// A group or object of the file; the other shapes of each kind.
+    /// By groups and objects of the file; other shapes by their kind.
     #[default]
     Groups,
-    /// A material.
+    /// By material.
     Materials,
-    /// A kind of shape.
+    /// By kind of shape.
     Shapes,
 }
 
 impl Grouping {
-    /// All of them.
+    /// All groupings.
     pub const ALL: [Self; 3] = [Self::Groups, Self::Materials, Self::Shapes];
 
     /// The title.
@@ -32,15 +32,15 @@ impl Grouping {
     }
 }
 
-/// What a part is recognized by when its file is loaded again.
+/// Identifies a part, also after a reload of its file.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub struct PartName {
-    /// What makes the part.
+pub struct PartKey {
+    /// The grouping that it belongs to.
     pub grouping: Grouping,
     /// The kind of its shapes; empty for a material.
     #[serde(default)]
     pub kind: String,
-    /// Its name in the file, or what stands for it.
+    /// Its name in the file, or a substitute.
     pub name: String,
     /// The number of parts before it that have the same name.
     #[serde(default)]
@@ -50,8 +50,8 @@ pub struct PartName {
 /// A part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// Its name.
-    pub name: PartName,
+    /// Its identity.
+    pub key: PartKey,
     /// The number of its primitives.
     pub count: usize,
     /// sRGB of its diffuse colour, for a material that has one.
@@ -74,7 +74,7 @@ impl PartList {
             part_of: Vec::with_capacity(scene.primitive_count()),
         };
         let mut numbers = HashMap::new();
-        let mut same: HashMap<PartName, u32> = HashMap::new();
+        let mut same: HashMap<PartKey, u32> = HashMap::new();
         for (group_index, group) in (0u32..).zip(scene.groups()) {
             let first = list.part_of.len() as u32;
             for primitive in first..first + group.count() as u32 {
@@ -89,8 +89,8 @@ impl PartList {
                 };
                 let number = *numbers.entry(key).or_insert_with(|| {
                     let mut part = part(scene, grouping, primitive);
-                    let before = same.entry(part.name.clone()).or_default();
-                    part.name.same_before = *before;
+                    let before = same.entry(part.key.clone()).or_default();
+                    part.key.same_before = *before;
                     *before += 1;
                     list.parts.push(part);
                     list.parts.len() - 1
@@ -133,7 +133,7 @@ fn part(scene: &Scene, grouping: Grouping, primitive: u32) -> Part {
     };
     let diffuse = material.and_then(|material| material.diffuse);
     Part {
-        name: PartName {
+        key: PartKey {
             grouping,
             kind: if is_material { "" } else { shapes }.to_owned(),
             name,

@@ -1,16 +1,16 @@
-//! The parts of a scene: groups, materials or shapes, each of which can be hidden and have its own colour.
+//! The parts of a scene: groups, materials or shapes, each of which can be hidden and have a custom colour.
 //!
 //! | file | part |
 //! |---|---|
 //! | `list` | the parts that a scene has |
-//! | `choice` | what the user chose about them, by their names |
-//! | this file | what the choice means for a scene: which primitives are shown, and in which colours |
+//! | `choice` | the user's choices about them, by name |
+//! | this file | the choices applied to a scene: the shown primitives and their colours |
 
 mod choice;
 mod list;
 
 pub use choice::PartsChoice;
-pub use list::{Grouping, Part, PartList, PartName};
+pub use list::{Grouping, Part, PartList, PartKey};
 
 use crate::document::ShownPrimitives;
 use hitscope_core::Scene;
@@ -22,7 +22,7 @@ use std::sync::Arc;
 /// The parts of a scene, and which primitives are to be shown.
 #[derive(Default)]
 pub struct Parts {
-    /// What makes a part.
+    /// How primitives are grouped into parts.
     pub grouping: Grouping,
     /// The text that the names of listed parts contain.
     pub filter: String,
@@ -37,14 +37,14 @@ pub struct Parts {
     /// The grouping whose parts were counted.
     counted: Option<Grouping>,
     colours: Option<SurfaceColours>,
-    /// The parts with own colours in `colours`.
-    coloured: Vec<PartName>,
+    /// The parts with custom colours in `colours`.
+    coloured: Vec<PartKey>,
     /// The choice that the picture shows, and its primitives.
     applied: (PartsChoice, ShownPrimitives),
 }
 
 impl Parts {
-    /// The parts of a scene that isn't known yet, with this choice about them.
+    /// The parts of a scene that isn't known yet, with these choices.
     pub fn by(grouping: Grouping, choice: PartsChoice) -> Self {
         Self {
             grouping,
@@ -54,12 +54,12 @@ impl Parts {
         }
     }
 
-    /// What the user chose.
+    /// The user's choices.
     pub fn choice(&self) -> &PartsChoice {
         &self.choice
     }
 
-    /// Replaces what the user chose.
+    /// Replaces the user's choices.
     pub fn choose(&mut self, choice: PartsChoice) {
         self.change(|old| *old = choice);
     }
@@ -94,7 +94,7 @@ impl Parts {
         self.is_stale
     }
 
-    /// Finds out which primitives of a scene are to be shown, and in which colours, if the choice has changed.
+    /// Updates the primitives to show and their colours, if the choice has changed.
     pub fn refresh(&mut self, scene: &Scene) {
         if !std::mem::take(&mut self.is_stale) {
             return;
@@ -159,7 +159,7 @@ impl Parts {
         &self.shown
     }
 
-    /// Notes that the picture shows what was chosen.
+    /// Notes that the picture shows the choice.
     pub fn note_applied(&mut self) {
         if self.applied.0 != self.choice || self.applied.1 != self.shown {
             self.applied = (self.choice.clone(), self.shown.clone());
@@ -170,12 +170,12 @@ impl Parts {
     pub fn revert(&mut self) {
         let (choice, shown) = self.applied.clone();
         self.choose(choice);
-        // The same flags, so that no tree is built again.
+        // The same flags, so that no new tree is built.
         self.shown = shown;
         self.counted = None;
     }
 
-    /// The own colours of parts; `None` if no part has one.
+    /// The custom colours of parts; `None` if no part has one.
     pub fn colours(&self) -> Option<&SurfaceColours> {
         self.colours.as_ref()
     }
@@ -184,8 +184,8 @@ impl Parts {
         self.lists[self.grouping as usize].as_deref()
     }
 
-    fn name(&self, part: usize) -> Option<PartName> {
-        Some(self.listed()?.parts.get(part)?.name.clone())
+    fn key(&self, part: usize) -> Option<PartKey> {
+        Some(self.listed()?.parts.get(part)?.key.clone())
     }
 
     /// Whether a part is shown; `None` if some of its primitives are.
@@ -200,15 +200,15 @@ impl Parts {
 
     /// Shows or hides a part.
     pub fn show(&mut self, part: usize, is_shown: bool) {
-        if let Some(name) = self.name(part) {
-            self.change(|choice| choice.show(&name, is_shown));
+        if let Some(key) = self.key(part) {
+            self.change(|choice| choice.show(&key, is_shown));
         }
     }
 
-    /// Shows a part alone.
+    /// Shows only this part.
     pub fn show_only(&mut self, part: usize) {
-        if let Some(name) = self.name(part) {
-            self.change(|choice| choice.show_only(&name));
+        if let Some(key) = self.key(part) {
+            self.change(|choice| choice.show_only(&key));
         }
     }
 
@@ -222,15 +222,15 @@ impl Parts {
         self.change(PartsChoice::invert);
     }
 
-    /// The own colour of a part, in sRGB.
+    /// The custom colour of a part, in sRGB.
     pub fn own_colour(&self, part: usize) -> Option<[u8; 3]> {
-        self.choice.colour_of(&self.name(part)?)
+        self.choice.colour_of(&self.key(part)?)
     }
 
-    /// Gives a part its own colour in sRGB; `None` takes it away.
+    /// Sets the custom colour of a part in sRGB; `None` removes it.
     pub fn colour(&mut self, part: usize, srgb: Option<[u8; 3]>) {
-        if let Some(name) = self.name(part) {
-            self.change(|choice| choice.colour(&name, srgb));
+        if let Some(key) = self.key(part) {
+            self.change(|choice| choice.colour(&key, srgb));
         }
     }
 
@@ -248,8 +248,8 @@ impl Parts {
 }
 
 /// The value of each part of a list that has one.
-fn of_parts<T: Copy>(list: &PartList, of_names: &HashMap<&PartName, T>) -> Vec<Option<T>> {
-    let value = |part: &Part| of_names.get(&part.name).copied();
+fn of_parts<T: Copy>(list: &PartList, of_keys: &HashMap<&PartKey, T>) -> Vec<Option<T>> {
+    let value = |part: &Part| of_keys.get(&part.key).copied();
     list.parts.iter().map(value).collect()
 }
 

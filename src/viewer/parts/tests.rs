@@ -7,7 +7,7 @@ use hitscope_core::srgb::from_texel;
 fn names(list: &PartList) -> Vec<&str> {
     list.parts
         .iter()
-        .map(|part| part.name.name.as_str())
+        .map(|part| part.key.name.as_str())
         .collect()
 }
 
@@ -34,7 +34,7 @@ fn parts_are_groups_or_materials_and_hold_each_primitive_once() {
 }
 
 #[test]
-fn hiding_showing_only_and_inverting_follow_the_grouping() {
+fn hiding_showing_alone_and_inverting_use_the_grouping() {
     let scene = embedded_scene().scene;
     let mut parts = Parts::default();
     let list = parts.list(&scene);
@@ -61,7 +61,7 @@ fn hiding_showing_only_and_inverting_follow_the_grouping() {
 }
 
 #[test]
-fn a_choice_is_found_again_by_names_and_kept_as_text() {
+fn a_choice_applies_by_name_and_survives_as_text() {
     let scene = embedded_scene().scene;
     let mut parts = Parts::default();
     parts.list(&scene);
@@ -77,7 +77,7 @@ fn a_choice_is_found_again_by_names_and_kept_as_text() {
     assert_eq!(later.choice(), parts.choice());
     later.refresh(&scene);
     assert_eq!(later.shown().0, parts.shown().0);
-    let colours = later.colours().expect("an own colour");
+    let colours = later.colours().expect("a custom colour");
     let materials = PartList::of(&scene, Grouping::Materials);
     for primitive in 0..scene.primitive_count() as u32 {
         let is_first = materials.part_of(primitive) == 0;
@@ -87,7 +87,7 @@ fn a_choice_is_found_again_by_names_and_kept_as_text() {
 }
 
 #[test]
-fn the_colour_that_was_given_last_counts_and_the_first_one_comes_back() {
+fn the_colour_set_last_applies_and_removing_it_restores_the_first() {
     let scene = embedded_scene().scene;
     let mut parts = Parts::default();
     parts.list(&scene);
@@ -105,7 +105,7 @@ fn the_colour_that_was_given_last_counts_and_the_first_one_comes_back() {
     ] {
         parts.colour(0, own);
         parts.refresh(&scene);
-        let colours = parts.colours().expect("own colours");
+        let colours = parts.colours().expect("custom colours");
         assert_eq!(colours.of(of_knot), Some(from_texel(expected)));
     }
 }

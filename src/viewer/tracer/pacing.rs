@@ -46,7 +46,7 @@ impl Tracer {
         self.first_pass = wanted.clamp(*FIRST_PASS.start(), *FIRST_PASS.end());
     }
 
-    /// Sets the block size of the first pass of views that need no lights, and of previews; `None` adapts it to the time.
+    /// Sets the block size of the first pass of previews and of views that need no lights; `None` adapts it to the speed.
     pub fn set_first_step(&mut self, step: Option<u32>) {
         self.chosen_step = step;
     }

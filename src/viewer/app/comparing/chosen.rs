@@ -1,4 +1,4 @@
-//! The commands of comparisons, and the tab *Compare*.
+//! Commands of comparisons, and the tab *Compare*.
 
 use crate::app::App;
 use crate::command::Commands;
@@ -10,7 +10,7 @@ use hitscope_core::obj::shown;
 use std::path::{Path, PathBuf};
 
 impl App {
-    /// What is compared, and how it is shown.
+    /// The choices about the comparison.
     pub fn comparison(&self) -> &Comparison {
         &self.seen.comparison
     }
@@ -23,13 +23,13 @@ impl App {
         }
     }
 
-    /// Shows a comparison in this way.
+    /// Starts a comparison in this mode, or changes its mode.
     pub(crate) fn compare_in(&mut self, mode: Mode) {
         let comparison = &mut self.seen.comparison;
         (comparison.is_on, comparison.mode) = (true, mode);
     }
 
-    /// Compares with this kind of side B.
+    /// Compares with a side B from this source, and shows the tab.
     pub(crate) fn compare_with(&mut self, source: Source) {
         let comparison = &mut self.seen.comparison;
         (comparison.is_on, comparison.source) = (true, source);
@@ -41,15 +41,15 @@ impl App {
         self.seen.comparison.swap(&mut self.seen.settings);
     }
 
-    /// Why there are no sides; `None` if two sides are compared.
+    /// Why no comparison is shown; `None` if one is.
     pub(crate) fn lacks_comparison(&self) -> Option<&'static str> {
-        (!self.is_comparing()).then_some("Nothing is compared: C starts a comparison")
+        (!self.is_comparing()).then_some("Nothing is compared: press C to start")
     }
 
     /// Why the sides can't be swapped; `None` if they can.
     pub(crate) fn lacks_swap(&self) -> Option<&'static str> {
         let is_same_scene = self.seen.comparison.source == Source::Traced;
-        let obstacle = "Only two traced pictures of the open scene can be swapped";
+        let obstacle = "Only traced pictures of the open scene can be swapped";
         self.lacks_comparison()
             .or((!is_same_scene).then_some(obstacle))
     }
@@ -57,7 +57,7 @@ impl App {
     /// Compares with another mesh or scene.
     pub(in crate::app) fn compare_with_mesh(&mut self, path: PathBuf) {
         self.seen.comparison.mesh_file = Some(path);
-        // Also loads a file again that has changed.
+        // Reloads a file that may have changed.
         self.compared.mesh = None;
         self.compare_with(Source::Mesh);
     }
@@ -65,12 +65,12 @@ impl App {
     /// Compares with a picture.
     pub(in crate::app) fn compare_with_picture(&mut self, path: PathBuf) {
         self.seen.comparison.picture_file = Some(path);
-        // Also loads a file again that has changed.
+        // Reloads a file that may have changed.
         self.compared.reference.reload();
         self.compare_with(Source::Picture);
     }
 
-    /// A side's picture in some words.
+    /// The name of a side, with its view, kernel and shading.
     pub(super) fn name_of(&self, side: Side) -> String {
         let settings = match side {
             Side::A => self.seen.settings.clone(),
@@ -129,7 +129,7 @@ impl App {
         (self.seen.settings, self.seen.comparison) = (of_a, comparison);
     }
 
-    /// Width and height of both sides, if they differ while both are at rest.
+    /// Width and height of both sides, if they differ.
     fn sizes(&self) -> Option<[glam::UVec2; 2]> {
         let a = self.traced.tracer.film().size();
         let (b, _) = self.compared.pixels()?;

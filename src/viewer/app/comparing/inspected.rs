@@ -1,4 +1,4 @@
-//! Clicks on side B: they inspect its ray, with its kernel and its mesh.
+//! Inspection of side B: a click inspects its ray with its own kernel and mesh.
 
 use crate::app::App;
 use crate::app::canvas::Canvas;
@@ -12,7 +12,7 @@ use hitscope_core::film::ShownPixel;
 use hitscope_core::scene::Shading;
 
 impl App {
-    /// The side whose picture is at a place of the screen. Where side B isn't traced, its pixels show the rays of side A.
+    /// The side that a click at a position on the screen inspects: side A also where a side B is shown that isn't traced.
     pub(in crate::app) fn side_at(&self, pos: Pos2, canvas: Canvas) -> Side {
         let is_b = match self.seen.comparison.mode {
             Mode::A | Mode::Difference | Mode::Distance => false,
@@ -26,7 +26,7 @@ impl App {
         }
     }
 
-    /// Whether the picture of side A is at a place of the screen.
+    /// Whether side A is shown at a position on the screen.
     pub(in crate::app) fn shows_a_at(&self, pos: Pos2, canvas: Canvas) -> bool {
         match self.seen.comparison.mode {
             _ if !self.is_comparing() => true,
@@ -36,7 +36,7 @@ impl App {
         }
     }
 
-    /// What a side's pixel at a place of the screen shows, with its camera in the coordinates of side A.
+    /// What a side's pixel at a position on the screen shows, with its camera in the coordinates of side A.
     pub(in crate::app) fn shown_on(
         &self,
         side: Side,
@@ -54,7 +54,7 @@ impl App {
         }
     }
 
-    /// What the pixel of side B at a place of the screen shows, in the coordinates of its document.
+    /// What the pixel of side B at a position on the screen shows, in the coordinates of its document.
     pub(in crate::app) fn shown_by_b(&self, pos: Pos2, canvas: Canvas) -> Option<ShownPixel> {
         let document = self.traced_document_of_b()?;
         let side = self.compared.traced.as_ref()?;
@@ -76,13 +76,13 @@ impl App {
         Some(point + origin(document) - origin(&self.open.document))
     }
 
-    /// The document of side B, if rays are traced for it.
+    /// The document of side B, if it is traced.
     fn traced_document_of_b(&self) -> Option<&Document> {
         let is_traced = self.is_comparing() && self.compared.source.is_traced();
         self.compared.document().filter(|_| is_traced)
     }
 
-    /// The side whose ray is inspected: that of the last click, if it is still there.
+    /// The side whose ray is inspected: the one last clicked, or side A if that one is gone.
     pub(in crate::app) fn inspected_side(&self) -> Side {
         match self.picked.side {
             Side::B if self.traced_document_of_b().is_some() => Side::B,
@@ -99,7 +99,7 @@ impl App {
         std::sync::Arc::ptr_eq(scene, &request.context.scene).then_some(request)
     }
 
-    /// The colours of the numbers that side B shows.
+    /// The colour scale of side B's view.
     pub(in crate::app) fn scale_of_b(&self) -> Option<ColourScale> {
         let request = match self.compared.source {
             Source::Rasterized => self.compared.rasterized.picture()?.request.clone(),
@@ -114,7 +114,7 @@ impl App {
         of_b.unwrap_or(&self.open.document)
     }
 
-    /// The document that knows the file of the inspected mesh; `None` if that file has changed.
+    /// The document whose file contains the inspected mesh; `None` if that file has changed.
     pub(in crate::app) fn file_of_pick(&self) -> Option<&Document> {
         match (self.inspected_side(), self.compared.source) {
             (Side::B, Source::Earlier) => None,
@@ -123,12 +123,12 @@ impl App {
         }
     }
 
-    /// Whether the inspected ray is traced in another scene than the open one.
+    /// Whether the inspected ray is traced in a scene other than the open one.
     pub(in crate::app) fn inspects_other_scene(&self) -> bool {
         self.inspected_side() == Side::B && self.compared.source.is_other_scene()
     }
 
-    /// How normals vary over a triangle on a side.
+    /// The shading of a side.
     pub(in crate::app) fn shading_of(&self, side: Side) -> Shading {
         match side {
             Side::A => self.seen.settings.shading(),
@@ -136,7 +136,7 @@ impl App {
         }
     }
 
-    /// Clears a pick in another scene than the open one, which has been replaced.
+    /// Clears a pick on side B, whose scene has been replaced.
     pub(super) fn forget_other_pick(&mut self) {
         if self.picked.side == Side::B {
             self.picked.clear_pick();

@@ -1,4 +1,4 @@
-//! Figures of the differences, distances between the surfaces, and the distance map, all found in the background.
+//! Figures of the differences, distances between the surfaces, and the distance map, all computed in the background.
 
 use crate::app::App;
 use crate::comparison::{
@@ -13,18 +13,18 @@ use hitscope_core::srgb::from_texel;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// While a side is being refined, its figures are found again after this time.
+/// Time between updates of the figures while a side is being refined.
 const INTERVAL: Duration = Duration::from_secs(1);
 
 /// A task that may fail.
 type Attempt<T> = Task<Result<T, String>>;
-/// The numbers of changes of both sides.
+/// The number of changes of side A and of side B.
 type Changes = [u64; 2];
 
-/// What was measured between both sides.
+/// Measurements between both sides, and their tasks.
 #[derive(Default)]
 pub(super) struct Measured {
-    /// The figures, and the numbers of changes that they belong to.
+    /// The figures, and the state of the sides that they belong to.
     pub figures: Option<(Changes, Figures)>,
     figures_task: Option<(Changes, Attempt<Figures>)>,
     figures_begun: Option<Instant>,
@@ -38,10 +38,10 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// How long the distances or the map have been under way; `None` if they aren't.
-    pub fn lasted(&self) -> Option<Duration> {
-        let distances = self.distances_task.as_ref().map(|(_, task)| task.lasted());
-        let map = self.map_task.as_ref().map(|(_, task)| task.lasted());
+    /// Time since measuring of distances began; `None` if none are being measured.
+    pub fn elapsed(&self) -> Option<Duration> {
+        let distances = self.distances_task.as_ref().map(|(_, task)| task.elapsed());
+        let map = self.map_task.as_ref().map(|(_, task)| task.elapsed());
         distances.or(map)
     }
 }
@@ -59,7 +59,7 @@ impl App {
         self.is_comparing() && self.preferences.shows_panel && self.preferences.tab == Tab::Compare
     }
 
-    /// Requests a frame in which the figures are found again, if they are shown.
+    /// Requests a frame that updates the figures, if they are shown.
     pub(super) fn ask_for_figures(&self, ctx: &egui::Context) {
         if self.shows_figures() {
             ctx.request_repaint();
@@ -105,13 +105,13 @@ impl App {
         measured.figures_task = Some((changes, Task::spawn("figures", ctx, work)));
     }
 
-    /// Whether the figures are those of the pictures on the screen.
+    /// Whether the figures belong to the pictures on the screen.
     fn has_figures(&self) -> bool {
         let known = self.compared.measured.figures.as_ref();
         known.is_some_and(|(changes, _)| *changes == self.compared.screen.changes)
     }
 
-    /// Both pictures, if they are of the same size.
+    /// Both pictures, if they have the same size.
     fn compare(&self) -> Option<Compare> {
         let film = self.traced.tracer.film();
         let (size, b) = self.compared.pixels()?;
@@ -175,7 +175,7 @@ impl App {
         }
     }
 
-    /// The distances between the surfaces of both sides, or why there are none; `None` until that is known.
+    /// The distances between the surfaces of both sides, or why they can't be measured; `None` until then.
     pub fn mesh_distances(&self) -> Option<&Result<MeshDistances, String>> {
         let pair = self.surface_pair()?;
         let known = self.compared.measured.distances.as_ref();
@@ -183,18 +183,18 @@ impl App {
         known.map(|(_, distances)| distances)
     }
 
-    /// The figures of the differences between both sides; the last ones while a side is being refined.
+    /// The latest figures of the differences between both sides.
     pub fn figures(&self) -> Option<&Figures> {
         let known = self.compared.measured.figures.as_ref();
         known.map(|(_, figures)| figures)
     }
 
-    /// The colours of the distance map.
+    /// The colour scale of the distance map.
     pub(in crate::app) fn distance_scale(&self) -> Option<ColourScale> {
         self.mesh_distances()?.as_ref().ok()?.scale()
     }
 
-    /// The map of the picture of side A on the screen.
+    /// The key of the map for side A's picture on the screen.
     fn wanted_map(&self) -> Option<MapKey> {
         let posted = self.traced.tracer.posted()?;
         let scale = self.distance_scale()?;
@@ -248,7 +248,7 @@ impl App {
         }
     }
 
-    /// Whether the map is that of the picture of side A on the screen.
+    /// Whether the map belongs to side A's picture on the screen.
     pub(super) fn is_map_shown(&self) -> bool {
         let map = self.compared.measured.map.as_ref();
         map.zip(self.wanted_map())
@@ -258,16 +258,16 @@ impl App {
     /// Why the distance map isn't shown; `None` if it is.
     pub fn map_status(&self) -> Option<&'static str> {
         if self.surface_pair().is_none() {
-            return Some("A distance map needs another file, or an earlier version, as side B");
+            return Some("A distance map needs another file or an earlier version as side B");
         }
         match self.mesh_distances() {
             Some(Err(_)) => Some("The distances can't be measured"),
             _ if self.is_map_shown() => None,
-            _ => Some("Measuring distances …"),
+            _ => Some("Measuring distances…"),
         }
     }
 
-    /// Whether the figures and the map are there, if they are shown.
+    /// Whether the figures and the map are up to date, if they are shown.
     pub(super) fn are_figures_settled(&self) -> bool {
         let has_map = || match self.map_status() {
             None => true,
@@ -282,7 +282,7 @@ impl App {
             && (!self.shows_figures() || !is_compared || has_figures())
     }
 
-    /// Whether both pictures are there and of one size.
+    /// Whether both pictures exist and have the same size.
     fn compare_is_possible(&self) -> bool {
         let size = self.traced.tracer.film().size();
         self.compared

@@ -2,11 +2,11 @@
 //!
 //! | file | part |
 //! |---|---|
-//! | this file | what is compared: the owner of side B |
-//! | `sides` | the documents of side B, and what is traced or rasterized of them |
+//! | this file | [`Compared`], the owner of side B |
+//! | `sides` | the documents of side B; tracing and rasterizing them |
 //! | `screen` | drawing side B, the divider and the difference |
 //! | `measured` | figures of the differences, distances, the distance map |
-//! | `inspected` | clicks on side B |
+//! | `inspected` | inspection of side B |
 //! | `chosen` | the commands, and the tab *Compare* |
 
 mod chosen;
@@ -26,16 +26,16 @@ use measured::Measured;
 use screen::Screen;
 use std::time::Duration;
 
-/// Side B of a comparison, and what is measured between both sides.
+/// Side B of a comparison, and measurements between both sides.
 pub(crate) struct Compared {
     render_state: RenderState,
-    /// How the rest was made.
+    /// The source that the other fields are for.
     source: Source,
     /// The open scene, packed for side B.
     sibling: Option<Document>,
     /// The document of another file.
     mesh: Option<Document>,
-    /// The open file before it was last loaded again.
+    /// The open file before it was last reloaded.
     earlier: Option<Document>,
     loading: Option<Loading>,
     lights: Option<SceneLights>,
@@ -64,7 +64,7 @@ impl Compared {
         }
     }
 
-    /// The document of side B; `None` for a picture, and until there is one.
+    /// The document of side B; `None` for a reference picture, and until the document is loaded.
     fn document(&self) -> Option<&Document> {
         match self.source {
             Source::Traced | Source::Rasterized => self.sibling.as_ref(),
@@ -83,7 +83,7 @@ impl Compared {
         }
     }
 
-    /// Drops side B, except for an earlier version, which can't be had again.
+    /// Drops side B, except for an earlier version, which couldn't be loaded again.
     fn clear(&mut self) {
         if let Some(loading) = self.loading.take() {
             loading.cancel();
@@ -91,7 +91,7 @@ impl Compared {
         (self.sibling, self.mesh, self.lights) = (None, None, None);
         if let Some(mut side) = self.traced.take() {
             side.tracer.stop();
-            // Its threads end once their last rays are traced. Without a thread to wait for them, this one waits.
+            // Dropping waits until the last rays are traced, so another thread does it, if one can be started.
             let end = std::thread::Builder::new().name("end of side B".to_owned());
             _ = end.spawn(move || drop(side));
         }
@@ -100,7 +100,7 @@ impl Compared {
         (self.screen, self.measured) = (Screen::default(), Measured::default());
     }
 
-    /// Whether there is anything that [`clear`](Self::clear) drops.
+    /// Whether [`clear`](Self::clear) has nothing to drop.
     fn is_idle(&self) -> bool {
         let has_document = self.sibling.is_some() || self.mesh.is_some();
         let has_picture = self.traced.is_some() || self.screen.has_picture();
@@ -108,21 +108,21 @@ impl Compared {
         !has_document && !has_picture && !has_reference && self.loading.is_none()
     }
 
-    /// Keeps the version of the open file that has been loaded again; drops the one of another file.
+    /// Keeps the document that a reload replaced; drops it if another file was opened.
     pub fn keep_earlier(&mut self, old: Document, is_same_file: bool) {
         let is_version = is_same_file && old.path.is_some();
         old.stop_improving();
         self.earlier = is_version.then_some(old);
     }
 
-    /// How long side B has been being packed for its kernel; `None` if it isn't.
-    pub fn packing_lasted(&self) -> Option<Duration> {
-        self.document()?.packing_lasted()
+    /// Time since packing of side B for its kernel began; `None` if it isn't running.
+    pub fn packing_elapsed(&self) -> Option<Duration> {
+        self.document()?.packing_elapsed()
     }
 
-    /// How long distances have been being measured, for figures or a map; `None` if none are.
-    pub fn measuring_lasted(&self) -> Option<Duration> {
-        self.measured.lasted()
+    /// Time since measuring of distances began, for figures or a map; `None` if none are being measured.
+    pub fn measuring_elapsed(&self) -> Option<Duration> {
+        self.measured.elapsed()
     }
 
     /// Cancels all work.
@@ -164,7 +164,7 @@ impl App {
         self.poll_measured(ctx);
     }
 
-    /// Whether side B has all samples, and its figures and its map are there if they are shown.
+    /// Whether side B is complete, and the figures and the map are up to date if they are shown.
     pub(super) fn is_comparison_settled(&self) -> bool {
         !self.is_comparing() || (self.are_sides_settled() && self.are_figures_settled())
     }

@@ -19,7 +19,7 @@ const GRIP: f32 = 9.0;
 /// Distance of the sides' names from the divider and from the edge of the picture, in points.
 const MARGIN: f32 = 8.0;
 
-/// What is drawn of side B.
+/// The GPU pictures of side B, the difference and the distance map.
 #[derive(Default)]
 pub(super) struct Screen {
     other: Option<Picture>,
@@ -38,7 +38,7 @@ impl Screen {
         self.other.is_some()
     }
 
-    /// Draws another distance map.
+    /// Uploads a distance map.
     pub fn upload_map(
         &mut self,
         render_state: &eframe::egui_wgpu::RenderState,
@@ -117,7 +117,7 @@ impl Compared {
         }
     }
 
-    /// Draws the difference again if a side or the gain has changed. Nothing is drawn while the sizes differ.
+    /// Updates the difference if a side or the gain has changed. There is none while the sizes differ.
     fn update_difference(
         &mut self,
         (size, a): (UVec2, &[[u8; 4]]),
@@ -143,12 +143,12 @@ impl Compared {
 }
 
 impl App {
-    /// Whether the picture shows a comparison in this way.
+    /// Whether a comparison is shown in this mode.
     pub(in crate::app) fn shows(&self, mode: Mode) -> bool {
         self.is_comparing() && self.seen.comparison.mode == mode
     }
 
-    /// The place of the picture in the window. A reference has its own size, which the picture then takes, too.
+    /// The place of the picture in the window. With a reference picture, it has the reference's size.
     pub(in crate::app) fn place_picture(&self, available: Rect, pixels_per_point: f32) -> Canvas {
         let is_picture = self.is_comparing() && self.compared.source == Source::Picture;
         match self.compared.reference.picture() {
@@ -159,20 +159,20 @@ impl App {
         }
     }
 
-    /// The divider's place on the screen, between two pixels.
+    /// The divider's x coordinate on the screen, between two pixels.
     pub(super) fn divider_x(&self, canvas: Canvas) -> f32 {
         let (left, right) = (canvas.rect.left(), canvas.rect.right());
         let x = left + self.seen.comparison.divider * (right - left);
         (x * canvas.pixels_per_point).round() / canvas.pixels_per_point
     }
 
-    /// Notes that pixels of side A have changed on the screen.
+    /// Counts a change of side A on the screen.
     pub(in crate::app) fn note_change_of_a(&mut self, ctx: &egui::Context) {
         self.compared.screen.changes[0] += 1;
         self.ask_for_figures(ctx);
     }
 
-    /// Draws what the comparison shows over the picture of side A.
+    /// Draws side B, the difference or the distance map over side A, as the mode says.
     pub(in crate::app) fn paint_other(
         &mut self,
         ui: &egui::Ui,
@@ -216,13 +216,13 @@ impl App {
         self.names_ui(ui, canvas);
     }
 
-    /// Without memory for side B, only side A is shown.
+    /// Ends the comparison because of an error, such as a lack of memory for side B.
     pub(super) fn end_comparison(&mut self, error: &GpuError) {
         self.seen.comparison.is_on = false;
         self.error(error);
     }
 
-    /// What the mode shows instead of side A; `None` for that side, and until there is something.
+    /// The shape that the mode shows instead of side A; `None` for side A itself, and until there is a picture.
     fn shape_of_other(&mut self, canvas: Canvas, overlay: Option<&wgpu::Texture>) -> Option<Shape> {
         let comparison = &self.seen.comparison;
         // The lines are those of the open scene.
@@ -269,7 +269,7 @@ impl App {
             Mode::B => name(middle, Align2::CENTER_TOP, b),
             Mode::Difference => name(middle, Align2::CENTER_TOP, "|A − B|".to_owned()),
             Mode::Distance => {
-                let text = self.map_status().unwrap_or("Distance of A from B");
+                let text = self.map_status().unwrap_or("Distance from A to B");
                 name(middle, Align2::CENTER_TOP, text.to_owned());
             }
         }

@@ -1,4 +1,4 @@
-//! The documents of side B, and what is traced or rasterized of them.
+//! The documents of side B: loading, packing, tracing and rasterizing them.
 
 use crate::app::App;
 use crate::comparison::{Source, TracedSide};
@@ -10,7 +10,7 @@ use hitscope_core::obj::LoadError;
 use hitscope_lab::commands::default_thread_count;
 
 impl App {
-    /// Starts the work that side B requires, unless it is done or under way.
+    /// Starts the work that side B requires, unless it is done or running.
     pub(in crate::app) fn prepare_other(&mut self, ctx: &egui::Context) {
         if !self.is_comparing() {
             return;
@@ -47,7 +47,7 @@ impl App {
             if !ctx.egui_is_using_pointer() && document.use_crease(settings.crease()) {
                 ctx.request_repaint();
             }
-            // A clip that is impossible has been turned off for side A.
+            // Preparing side A has turned an impossible clip off.
             let clip = settings.clip.clip().ok().flatten();
             if document.use_clip(clip.as_ref()) == Ok(true) {
                 ctx.request_repaint();
@@ -57,7 +57,7 @@ impl App {
         document.use_second(settings.second_kernel(), ctx);
     }
 
-    /// Starts to load the other file unless that is done or under way.
+    /// Starts to load the other file, unless it is loaded or being loaded.
     fn want_mesh(&mut self, ctx: &egui::Context) {
         let Some(path) = &self.seen.comparison.mesh_file else {
             return;
@@ -118,7 +118,7 @@ impl App {
         }
     }
 
-    /// Collects what the threads have sent.
+    /// Collects results of side B's threads.
     pub(super) fn poll_sides(&mut self, ctx: &egui::Context) {
         self.poll_mesh(ctx);
         let mut messages = Vec::new();
@@ -156,7 +156,7 @@ impl App {
         }
     }
 
-    /// Shows the other file once it is loaded.
+    /// Uses the other file once it is loaded.
     fn poll_mesh(&mut self, ctx: &egui::Context) {
         let Some(loading) = &self.compared.loading else {
             return;
@@ -183,7 +183,7 @@ impl App {
         }
     }
 
-    /// Whether side B has all samples; also if there is none to wait for.
+    /// Whether side B is complete, or there is nothing to wait for.
     pub(super) fn are_sides_settled(&self) -> bool {
         let (compared, comparison) = (&self.compared, &self.seen.comparison);
         if compared.source != comparison.source || compared.loading.is_some() {
@@ -209,7 +209,7 @@ fn origin(document: &Document) -> DVec3 {
     document.loaded.scene.mesh().origin()
 }
 
-/// A camera that is moved, or exactly the same one.
+/// A camera that is moved by a vector. Moving by 0 changes no bit.
 fn moved(camera: Camera, by: DVec3) -> Camera {
     if by == DVec3::ZERO {
         camera

@@ -33,7 +33,7 @@ impl App {
         }
     }
 
-    /// Starts to look up an element, to which the camera then goes.
+    /// Starts to look up an element. The camera then moves to it.
     pub(in crate::app) fn go_to(&mut self, element: Element, ctx: &egui::Context) {
         let (loaded, path) = (
             self.open.document.loaded.clone(),

@@ -1,7 +1,7 @@
-//! Numbers in the enlarged pixels: what the view shows there, in decimal or exactly.
+//! Values in the pixels of the magnified picture, in decimal or as exact hexadecimal floats.
 //!
-//! A view of numbers has one in each pixel, that of the ray through its middle; the view *Triangle* has the index of the
-//! primitive. The other views have the pixel's red, green and blue light.
+//! A view of numbers has the number of the ray through the centre of each pixel. The view *Triangle* has the index of the
+//! primitive. The other views have the pixel's radiance in red, green and blue.
 
 use super::App;
 use super::canvas::Canvas;
@@ -16,25 +16,25 @@ use hitscope_core::sampler::Sampler;
 use hitscope_core::srgb::{from_texel, luminance};
 use std::sync::Arc;
 
-/// The side of the smallest pixel with a number, in points.
+/// The side of the smallest pixel with a value, in points.
 const LEAST_SIDE: f32 = 48.0;
 /// The sizes of the font in points.
 const FONT_SIZES: [f32; 2] = [5.0, 14.0];
-/// The width of a digit of a proportional font, relative to the font's size; the widest of egui's is narrower.
+/// An upper bound of the width of a digit in egui's proportional font, relative to the font's size.
 const DIGIT_WIDTH: f32 = 0.6;
 /// Significant digits of decimal numbers.
 const DIGITS: usize = 5;
 
-/// The numbers in large pixels.
-pub(crate) struct PixelNumbers {
+/// The values in large pixels.
+pub(crate) struct PixelValues {
     pub is_on: bool,
-    /// Whether numbers are written exactly, in hexadecimal.
+    /// Whether numbers are shown as hexadecimal floats.
     pub is_exact: bool,
     task: KeyedTask<Key, Vec<Value>>,
     found: Option<(Key, Vec<Value>)>,
 }
 
-impl Default for PixelNumbers {
+impl Default for PixelValues {
     fn default() -> Self {
         Self {
             is_on: true,
@@ -45,7 +45,7 @@ impl Default for PixelNumbers {
     }
 }
 
-/// What the numbers depend on.
+/// What the values depend on.
 #[derive(Clone, PartialEq)]
 struct Key {
     /// The request, with the camera of the picture on the screen.
@@ -55,7 +55,7 @@ struct Key {
     max: UVec2,
 }
 
-/// What a ray shows.
+/// The value of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Value {
     Nothing,
@@ -97,12 +97,12 @@ fn pixels(min: UVec2, max: UVec2) -> impl Iterator<Item = UVec2> {
 }
 
 impl App {
-    /// Writes numbers into the pixels of the picture that are large enough.
-    pub(super) fn pixel_numbers_ui(&mut self, ui: &egui::Ui, canvas: Canvas, camera: &Camera) {
+    /// Writes values into the pixels if they are large enough.
+    pub(super) fn pixel_values_ui(&mut self, ui: &egui::Ui, canvas: Canvas, camera: &Camera) {
         let side = canvas.rect.width() / (canvas.part.width() * camera.resolution().x as f32);
-        let numbers = &mut self.shown.magnifier.numbers;
-        if !numbers.is_on || side < LEAST_SIDE {
-            numbers.found = None;
+        let values = &mut self.shown.magnifier.values;
+        if !values.is_on || side < LEAST_SIDE {
+            values.found = None;
             return;
         }
         let rect = visible(canvas, camera);
@@ -114,7 +114,7 @@ impl App {
         for (pixel, text) in pixels(rect.min, rect.max).zip(texts) {
             let corner = |offset| canvas.pos_of(pixel.as_dvec2() + offset, camera);
             let place = Rect::from_two_pos(corner(DVec2::ZERO), corner(DVec2::ONE));
-            // The numbers are those of side A of a comparison.
+            // The values are those of side A of a comparison.
             if !self.shows_a_at(place.center(), canvas) {
                 continue;
             }
@@ -122,7 +122,7 @@ impl App {
         }
     }
 
-    /// The texts in pixels, row by row; `None` until they are found.
+    /// The texts of the pixels, row by row; `None` until they are known.
     fn values(
         &mut self,
         ctx: &egui::Context,
@@ -132,7 +132,7 @@ impl App {
         let Some(request) = self.traced.tracer.posted() else {
             return Ok(None);
         };
-        let is_exact = self.shown.magnifier.numbers.is_exact;
+        let is_exact = self.shown.magnifier.values.is_exact;
         let view = request.integrator;
         if !view.shows_indices() && !matches!(view.scale(&request.context), Ok(Some(_))) {
             let film = self.traced.tracer.film();
@@ -151,26 +151,25 @@ impl App {
             max: rect.max,
         };
         key.request.context.camera = *camera;
-        let numbers = &mut self.shown.magnifier.numbers;
-        if numbers
+        let values = &mut self.shown.magnifier.values;
+        if values
             .found
             .as_ref()
             .is_none_or(|(known, _)| *known != key)
         {
             let wanted = key.clone();
-            let start = || Task::spawn("pixel numbers", ctx, move || wanted.values());
-            numbers.found = numbers
+            let start = || Task::spawn("pixel values", ctx, move || wanted.values());
+            values.found = values
                 .task
                 .get(key.clone(), start)?
                 .map(|values| (key, values));
         }
         let text = |value: &Value| value.text(is_exact);
-        let found = numbers.found.as_ref();
+        let found = values.found.as_ref();
         Ok(found.map(|(_, values)| values.iter().map(text).collect()))
     }
 
-    /// Writes a text into a pixel, in black or white, whichever has the higher contrast. It is a widget, so that assistive
-    /// technology reads it.
+    /// Writes a text into a pixel, in black or white. It is a widget, so that assistive technology reads it.
     fn write(&self, ui: &egui::Ui, canvas: Canvas, place: Rect, pixel: UVec2, text: &str) {
         let longest = text.lines().map(|line| line.chars().count()).max();
         let Some(longest) = longest.filter(|longest| *longest > 0) else {
@@ -186,7 +185,7 @@ impl App {
         let galley = painter.layout(text.to_owned(), font, colour, f32::INFINITY);
         let corner: Pos2 = place.center() - 0.5 * galley.size();
         painter.galley(corner, Arc::clone(&galley), colour);
-        let id = ui.scope_id().with(("pixel number", pixel.to_array()));
+        let id = ui.scope_id().with(("pixel value", pixel.to_array()));
         let response = ui.interact(place.intersect(canvas.rect), id, Sense::hover());
         let name = format!(
             "Pixel {}, {}: {}",
@@ -197,7 +196,7 @@ impl App {
         response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &name));
     }
 
-    /// Black on bright pixels, white on the others.
+    /// Black on bright pixels, white on the others, for the higher contrast.
     fn colour_on(&self, pixel: UVec2) -> Color32 {
         /// The luminance that has the same contrast with black and with white, (L + 0.05)² = 0.05 · 1.05: see the Web
         /// Content Accessibility Guidelines 2.2, “contrast ratio”.
