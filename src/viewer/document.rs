@@ -6,6 +6,7 @@ mod sibling;
 pub use shown_part::ShownPrimitives;
 
 use crate::task::{Pending, Task, TaskPanicked};
+use glam::DVec3;
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::light::{Environment, EnvironmentMap, Light, MapPlacement, PlacedMap};
 use hitscope_core::loading::LoadedScene;
@@ -215,6 +216,11 @@ impl Document {
     /// Whether the scene's tree is final.
     pub fn has_last_tree(&self) -> bool {
         self.improvement.is_over()
+    }
+
+    /// The origin of the scene's coordinates, in the file's coordinates.
+    pub fn origin(&self) -> DVec3 {
+        self.loaded.scene.mesh().origin()
     }
 
     /// The document's name for titles.

@@ -199,6 +199,11 @@ impl Settings {
         self.view().needs.second.kernel(self.against())
     }
 
+    /// The name of flat or smooth shading.
+    pub fn shading_name(is_smooth: bool) -> &'static str {
+        if is_smooth { "smooth" } else { "flat" }
+    }
+
     /// How normals vary over a triangle.
     pub fn shading(&self) -> Shading {
         match (self.is_smooth, self.is_spherical) {

@@ -1,18 +1,17 @@
-//! Tests in a process of their own, whose memory they read, and which writes to a temporary folder only.
+//! Runs a test in its own process, whose memory the test can measure and which writes only to a temporary folder.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// Holds the folder of a process that was started for one test.
+/// The environment variable with the folder of a process that was started for one test.
 const FOLDER: &str = "HITSCOPE_TEST_FOLDER";
 
 /// The panics of all threads of this process.
 static PANICS: AtomicUsize = AtomicUsize::new(0);
 
-/// Runs the test of this name in a process of its own, whose current folder is a temporary one. File dialogs and portals
-/// are hidden from it.
+/// Runs the test of this name in its own process, in a temporary folder. File dialogs and portals are hidden from it.
 pub fn alone(name: &str, test: impl FnOnce(&Path)) {
     if let Some(folder) = std::env::var_os(FOLDER) {
         count_panics();

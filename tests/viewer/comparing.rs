@@ -1,7 +1,7 @@
-//! Comparisons of the picture with another one, as a user meets them.
+//! Tests of comparisons with another view, kernel, mesh or picture in the window.
 
 use crate::app::drop_file;
-use crate::harness::{Window, app, click, in_picture, pointer, press, say, settle, wait};
+use crate::harness::{Window, app, click, in_picture, pointer, press, say, settle, wait, write};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::kittest::Queryable as _;
@@ -9,12 +9,12 @@ use glam::UVec2;
 use hitscope::app::App;
 use hitscope::comparison::{Mode, Source};
 use hitscope_lab::commands::Output;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use tempfile::TempDir;
 
 /// A square that covers the middle of the first picture.
 const SQUARE: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
-/// The same one, 0.25 behind it.
+/// The same square, moved 0.25 back.
 const FARTHER: &str = "v -1 -1 -0.25\nv 1 -1 -0.25\nv 1 1 -0.25\nv -1 1 -0.25\nf 1 2 3 4\n";
 
 /// The window with a mesh, once its picture is complete; `None` if the test is skipped.
@@ -24,12 +24,6 @@ fn opened(text: &str) -> Option<(Window, TempDir)> {
     let mut window = app(Some(path))?;
     settle(&mut window, "mesh.obj");
     Some((window, folder))
-}
-
-fn write(folder: &TempDir, name: &str, text: &str) -> PathBuf {
-    let path = folder.path().join(name);
-    std::fs::write(&path, text).expect("written");
-    path
 }
 
 /// Draws frames until both sides and their figures are there.
@@ -155,7 +149,7 @@ fn a_key_switches_the_sides_and_undo_brings_the_last_one_back() {
     settled(&mut window);
     assert_eq!(window.state().comparison().mode, Mode::B);
     assert_eq!(colour(&mut window, 0.5, 0.5), b);
-    // The tab also has the view of side A.
+    // The tab also has a control for the view of side A.
     choose(&mut window, "View of A", "Triangle");
     assert_eq!(window.state().settings().view().name, "triangle");
     choose(&mut window, "View of A", "Shaded");
@@ -225,7 +219,7 @@ fn rasterized_and_traced_triangles_hardly_differ() {
         assert!(seen.different * 1000 <= seen.covered, "{view}: {seen:?}");
     }
     // The same view on both sides differs at edges only, which rays sample more than once.
-    choose(&mut window, "View of B", "as A");
+    choose(&mut window, "View of B", "same as A");
     let figures = window.state().figures().expect("counted").picture.clone();
     assert!(figures.percent_over_tolerance > 0.0, "{figures:?}");
     let psnr = figures.psnr_db.expect("a difference");
@@ -247,7 +241,7 @@ fn shapes_that_are_not_rasterized_are_named() {
 }
 
 #[test]
-fn another_file_is_seen_measured_and_inspected_beside_the_first() {
+fn another_file_is_shown_measured_and_inspected_beside_the_first() {
     let Some((mut window, folder)) = opened(SQUARE) else {
         return;
     };
@@ -362,7 +356,7 @@ fn a_reference_picture_sets_the_size_and_has_figures() {
 }
 
 #[test]
-fn a_reference_that_is_no_picture_gives_an_error_and_changes_nothing() {
+fn a_reference_that_cannot_be_read_gives_an_error_and_changes_nothing() {
     let Some((mut window, folder)) = opened(SQUARE) else {
         return;
     };

@@ -46,7 +46,7 @@ fn f12_saves_the_picture_beside_the_file_and_a_toast_says_so_for_some_seconds() 
 }
 
 #[test]
-fn a_link_of_the_log_goes_to_the_line_that_a_warning_names() {
+fn a_link_in_the_log_leads_to_the_line_that_a_warning_names() {
     let folder = tempfile::tempdir().expect("a folder");
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n";
     let mesh = write(&folder, "mesh.obj", text);

@@ -1,6 +1,6 @@
 //! Tests of the overlay in slices and on a GPU with small buffers.
 
-use crate::harness::{app_on, gpu, press, wait};
+use crate::harness::{app_on, gpu, limited_device, press, wait};
 use crate::overlay::{input, none};
 use eframe::egui_wgpu::{WgpuSetup, WgpuSetupExisting};
 use egui::Key;
@@ -41,18 +41,6 @@ fn small_device(max_buffer_size: u64) -> Option<(wgpu::Device, wgpu::Queue)> {
         max_buffer_size,
         ..wgpu::Limits::default()
     })
-}
-
-/// A device of the shared adapter with these limits. It is never closed.
-pub fn limited_device(limits: wgpu::Limits) -> Option<(wgpu::Device, wgpu::Queue)> {
-    let descriptor = wgpu::DeviceDescriptor {
-        required_limits: limits,
-        ..wgpu::DeviceDescriptor::default()
-    };
-    let made = pollster::block_on(gpu()?.adapter.request_device(&descriptor));
-    let (device, queue) = made.expect("the adapter gives another device");
-    std::mem::forget((device.clone(), queue.clone()));
-    Some((device, queue))
 }
 
 /// A drawing of a scene with its lines, hidden and through the mesh.
@@ -151,7 +139,7 @@ fn a_cancelled_drawing_ends_after_its_slice() {
 }
 
 #[test]
-fn lines_and_meshes_larger_than_a_buffer_are_split_and_drawn_alike() {
+fn lines_and_meshes_larger_than_a_buffer_are_split_and_drawn_the_same() {
     const GRANTED: u64 = 128 << 10;
     let Some((device, queue)) = small_device(GRANTED) else {
         return;

@@ -89,6 +89,32 @@ pub fn app_on(
     started(setup, start, size, pixels_per_point)
 }
 
+/// A device of the shared adapter with these limits. It is never closed.
+pub fn limited_device(limits: wgpu::Limits) -> Option<(wgpu::Device, wgpu::Queue)> {
+    let descriptor = wgpu::DeviceDescriptor {
+        required_limits: limits,
+        ..wgpu::DeviceDescriptor::default()
+    };
+    let made = pollster::block_on(gpu()?.adapter.request_device(&descriptor));
+    let (device, queue) = made.expect("the adapter gives another device");
+    std::mem::forget((device.clone(), queue.clone()));
+    Some((device, queue))
+}
+
+/// A window of 800 × 600 points on its own device, and the device; `None` if the test is skipped.
+pub fn app_on_own_device() -> Option<(Window, wgpu::Device)> {
+    let (device, queue) = limited_device(wgpu::Limits::default())?;
+    let gpu = gpu()?;
+    let setup = WgpuSetup::Existing(WgpuSetupExisting {
+        instance: gpu.instance.clone(),
+        adapter: gpu.adapter.clone(),
+        device: device.clone(),
+        queue,
+    });
+    let window = app_on(setup, None, egui::vec2(800.0, 600.0), 1.0);
+    Some((window, device))
+}
+
 /// The app with these settings, in a window of 800 × 600 points, after its first picture.
 pub fn app_with(settings: Settings) -> Option<Window> {
     let start = StartOptions {

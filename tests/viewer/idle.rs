@@ -1,4 +1,4 @@
-//! An unchanged window with a complete picture asks for no frame.
+//! Tests that an unchanged window with a complete picture requests no frames.
 
 use crate::harness::{Window, app_started, click, in_picture, press, run_command, wait};
 use egui::{Event, Pos2};
@@ -10,8 +10,8 @@ use hitscope::tab::Tab;
 use hitscope::trade::{Trade, TradeState};
 use std::time::Duration;
 
-/// Waits until the picture is complete and the tab has its contents; then requires that nothing asks for a frame.
-fn rests(window: &mut Window, moment: &str) {
+/// Waits until the picture is complete and the tab has its contents. Then requires that nothing requests a frame.
+fn require_idle(window: &mut Window, moment: &str) {
     wait(window, moment, |app| {
         app.is_settled() && app.trade().map(Trade::state) != Some(TradeState::Measuring)
     });
@@ -28,7 +28,7 @@ fn rests(window: &mut Window, moment: &str) {
     assert!(!window.ctx.has_requested_repaint(), "{moment}: {causes:?}");
 }
 
-/// The time after which the last frame asked for another one.
+/// The time after which the last frame requested another one.
 fn delay(window: &Window) -> Duration {
     window.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay
 }
@@ -49,24 +49,24 @@ fn window(tab: Tab, view: &str) -> Option<Window> {
 }
 
 #[test]
-fn a_window_with_a_complete_picture_asks_for_no_frames_in_any_tab() {
+fn a_window_with_a_complete_picture_requests_no_frames_in_any_tab() {
     for tab in Tab::ALL {
         let Some(mut window) = window(tab, "shaded") else {
             return;
         };
-        rests(&mut window, tab.title());
+        require_idle(&mut window, tab.title());
         window.event(Event::PointerMoved(in_picture(&window, 0.5, 0.5)));
-        rests(
+        require_idle(
             &mut window,
             &format!("{}, pointer over the picture", tab.title()),
         );
         let at = in_picture(&window, 0.5, 0.5);
         click(&mut window, at);
         wait(&mut window, "the pick", |app| app.inspection().is_some());
-        rests(&mut window, &format!("{}, with a pick", tab.title()));
+        require_idle(&mut window, &format!("{}, with a pick", tab.title()));
         // The panel with the pointer over it.
         window.event(Event::PointerMoved(Pos2::new(700.0, 300.0)));
-        rests(
+        require_idle(
             &mut window,
             &format!("{}, pointer over the panel", tab.title()),
         );
@@ -74,25 +74,25 @@ fn a_window_with_a_complete_picture_asks_for_no_frames_in_any_tab() {
 }
 
 #[test]
-fn a_window_rests_after_lines_and_toasts_and_with_light_that_has_converged() {
+fn a_window_is_idle_after_lines_and_toasts_and_once_light_has_converged() {
     let Some(mut window) = window(Tab::Display, "path") else {
         return;
     };
-    rests(&mut window, "light");
+    require_idle(&mut window, "light");
     for key in [egui::Key::W, egui::Key::N, egui::Key::G, egui::Key::X] {
         press(&mut window, key);
     }
-    rests(&mut window, "lines");
+    require_idle(&mut window, "lines");
     // The picture on the clipboard gives a toast.
     run_command(&mut window, "copy picture");
     wait(&mut window, "the toast", |app| !app.toasts().is_empty());
-    rests(&mut window, "after the toast");
+    require_idle(&mut window, "after the toast");
     assert_eq!(window.state().toasts(), [""; 0]);
     assert!(window.query_by_label("Rendered picture").is_some());
 }
 
 #[test]
-fn a_paused_window_rests() {
+fn a_paused_window_is_idle() {
     let Some(mut window) = app_started(StartOptions::default()) else {
         return;
     };

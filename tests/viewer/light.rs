@@ -206,7 +206,7 @@ fn a_dropped_environment_lights_the_scene_and_does_not_replace_it() {
 }
 
 #[test]
-fn brightness_and_exposure_end_where_the_film_ends() {
+fn brightness_and_exposure_stay_within_the_films_range() {
     let folder = tempfile::tempdir().expect("a folder");
     let sky = folder.path().join("sky.hdr");
     let mut bytes = b"#?RADIANCE\n\n-Y 2 +X 1\n".to_vec();

@@ -1,24 +1,11 @@
-//! The graphics device is lost: the app goes on in another window, with another device.
+//! Loss of the graphics device: the app continues in a new window with a new device.
 
-use crate::gpu::limited_device;
-use crate::harness::{Window, app_on, click, gpu, in_picture, press, shared_setup, wait};
-use eframe::egui_wgpu::{WgpuSetup, WgpuSetupExisting};
+use crate::harness::{
+    Window, app_on_own_device, click, gpu, in_picture, press, shared_setup, wait,
+};
 use egui::{Key, ViewportCommand, vec2};
 use hitscope::app::App;
 use hitscope::overlay::wireframe::WIREFRAME;
-
-/// A window on a device of its own, and the device.
-fn window() -> Option<(Window, wgpu::Device)> {
-    let (device, queue) = limited_device(wgpu::Limits::default())?;
-    let gpu = gpu()?;
-    let setup = WgpuSetup::Existing(WgpuSetupExisting {
-        instance: gpu.instance.clone(),
-        adapter: gpu.adapter.clone(),
-        device: device.clone(),
-        queue,
-    });
-    Some((app_on(setup, None, vec2(800.0, 600.0), 1.0), device))
-}
 
 /// The app of a window, in a window with the shared device.
 fn reopened(window: Window) -> Window {
@@ -44,8 +31,8 @@ fn lose(window: &mut Window, device: &wgpu::Device) {
 }
 
 #[test]
-fn all_goes_on_in_another_window_and_its_picture_is_the_same() {
-    let Some((mut window, device)) = window() else {
+fn the_app_continues_in_a_new_window_with_the_same_picture() {
+    let Some((mut window, device)) = app_on_own_device() else {
         return;
     };
     press(&mut window, Key::W);
@@ -83,7 +70,7 @@ fn all_goes_on_in_another_window_and_its_picture_is_the_same() {
 
 #[test]
 fn a_device_lost_while_a_file_is_loaded_and_rays_are_traced_does_no_harm() {
-    let Some((mut window, device)) = window() else {
+    let Some((mut window, device)) = app_on_own_device() else {
         return;
     };
     let folder = tempfile::tempdir().expect("a folder");
@@ -103,7 +90,7 @@ fn a_device_lost_while_a_file_is_loaded_and_rays_are_traced_does_no_harm() {
 
 #[test]
 fn threads_of_the_lost_window_wake_the_new_one() {
-    let Some((mut window, device)) = window() else {
+    let Some((mut window, device)) = app_on_own_device() else {
         return;
     };
     wait(&mut window, "the picture", App::is_settled);

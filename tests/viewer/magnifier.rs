@@ -1,4 +1,4 @@
-//! Tests of the enlarged picture and of the numbers in its pixels.
+//! Tests of the magnified picture and of the values in its pixels.
 
 use crate::harness::{Window, app_started, click, in_picture, press, wait};
 use crate::pointer::on_the_knot;
@@ -56,7 +56,7 @@ fn number_in(window: &mut Window, pixel: UVec2) -> String {
 }
 
 #[test]
-fn an_enlarged_pixel_shows_its_primitive_and_a_click_inspects_that_pixel() {
+fn a_magnified_pixel_shows_its_primitive_and_a_click_inspects_that_pixel() {
     let Some(mut window) = window("triangle") else {
         return;
     };
@@ -79,7 +79,7 @@ fn an_enlarged_pixel_shows_its_primitive_and_a_click_inspects_that_pixel() {
 }
 
 #[test]
-fn numbers_are_decimal_or_exact() {
+fn pixel_values_are_decimal_or_exact() {
     let Some(mut window) = window("depth") else {
         return;
     };
@@ -104,7 +104,7 @@ fn numbers_are_decimal_or_exact() {
 }
 
 #[test]
-fn ctrl_shift_scrolling_enlarges_the_picture_and_not_the_scene() {
+fn ctrl_shift_scroll_magnifies_the_picture_without_moving_the_camera() {
     let Some(mut window) = window("normal") else {
         return;
     };

@@ -84,7 +84,7 @@ mod window;
 mod trade;
 // Navigation with the pointer, and animated views.
 mod navigation;
-// The enlarged picture, and numbers in its pixels.
+// The magnified picture, and the values in its pixels.
 mod magnifier;
 // The list of parts.
 mod parts;

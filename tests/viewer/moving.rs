@@ -1,4 +1,4 @@
-//! Tests of the pointer while the camera moves: a pixel of the screen stands for the ray that made it.
+//! Tests of the pointer while the camera moves: a click inspects the ray whose colour the pixel shows.
 
 use crate::harness::{Window, app_started, bare, press, wait};
 use crate::inspecting::{corner, middle};
@@ -204,7 +204,7 @@ fn click_shows_its_triangle(window: &mut Window, pixel: UVec2) -> Option<bool> {
     Some(hit.is_some())
 }
 
-/// Clears the pick, and before it messages.
+/// Clears messages, then the pick.
 fn clear(window: &mut Window) {
     for _ in 0..4 {
         if window.state().inspection().is_some() {
@@ -265,7 +265,7 @@ fn clicks_right_after_undo_redo_and_a_new_size_inspect_what_the_screen_shows() {
     assert!(hits > 6, "{hits} hits");
 }
 
-/// An OBJ of a square of so many by so many smaller ones, which rise and fall.
+/// An OBJ file of a hilly surface of `side` × `side` squares.
 pub fn hilly_square(side: usize) -> String {
     let mut obj = String::new();
     let places = (0..=side).flat_map(|y| (0..=side).map(move |x| (x, y)));

@@ -144,14 +144,14 @@ fn drawn_by(
 }
 
 pub fn layer() -> Option<(OverlayLayer, &'static Gpu)> {
-    layer_on(true)
+    layer_on(wgpu::DeviceType::Cpu)
 }
 
-/// A layer that draws as on a software GPU, or as on another one.
-fn layer_on(is_software: bool) -> Option<(OverlayLayer, &'static Gpu)> {
+/// A layer that draws as on an adapter of this type.
+fn layer_on(adapter: wgpu::DeviceType) -> Option<(OverlayLayer, &'static Gpu)> {
     let gpu = gpu()?;
     let state: RenderState = create_render_state(shared_setup(gpu), RendererOptions::PREDICTABLE);
-    Some((OverlayLayer::new(&state, is_software), gpu))
+    Some((OverlayLayer::new(&state, adapter), gpu))
 }
 
 /// A colour with premultiplied alpha, as in the texture.
@@ -320,7 +320,7 @@ fn lines_of_meshes_and_shapes_are_drawn_while_the_camera_moves_except_by_a_softw
     added.expect("nobody cancels");
     let input = input(&Arc::new(with_ball), camera());
     let overlays = only(&WIREFRAME, |state| state.colour = WIRE);
-    let Some((mut layer, gpu)) = layer_on(false) else {
+    let Some((mut layer, gpu)) = layer_on(wgpu::DeviceType::DiscreteGpu) else {
         return;
     };
     let moving = drawn_by(&mut layer, gpu, |layer, ctx| {
@@ -340,7 +340,7 @@ fn lines_of_meshes_and_shapes_are_drawn_while_the_camera_moves_except_by_a_softw
     // It hides the edge only while the camera rests.
     assert!(moving > still && still > 0, "{moving} {still}");
 
-    let (mut layer, _) = layer_on(true).expect("a graphics adapter");
+    let (mut layer, _) = layer_on(wgpu::DeviceType::Cpu).expect("a graphics adapter");
     let drawn = layer.draw_moving(&input, &overlays, &egui::Context::default());
     assert!(drawn.expect("drawn").is_none() && layer.is_complete());
 }

@@ -26,7 +26,7 @@ fn window(file: Option<std::path::PathBuf>) -> Option<Window> {
     })
 }
 
-/// Clicks on a widget and waits for the picture.
+/// Clicks a widget and waits for the picture.
 fn click_on(window: &mut Window, label: &str) {
     window.get_by_label(label).click();
     window.run_steps(3);
@@ -46,7 +46,7 @@ fn shown(window: &Window) -> Option<Vec<bool>> {
 }
 
 #[test]
-fn a_part_that_is_shown_alone_stays_alone_after_a_reload_and_undo_shows_the_others() {
+fn a_part_shown_alone_stays_alone_after_a_reload_and_undo_shows_the_others() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = write(&folder, "mesh.obj", MESH);
     let Some(mut window) = window(Some(path)) else {
@@ -73,7 +73,7 @@ fn a_part_that_is_shown_alone_stays_alone_after_a_reload_and_undo_shows_the_othe
 }
 
 #[test]
-fn an_own_colour_changes_the_pixels_of_its_part_and_undo_takes_it_away() {
+fn a_custom_colour_changes_the_pixels_of_its_part_and_undo_removes_it() {
     let Some(mut window) = window(None) else {
         return;
     };
@@ -115,7 +115,7 @@ fn an_own_colour_changes_the_pixels_of_its_part_and_undo_takes_it_away() {
 }
 
 #[test]
-fn hidden_parts_and_own_colours_are_in_the_session() {
+fn hidden_parts_and_custom_colours_are_saved_in_the_session() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = write(&folder, "mesh.obj", MESH);
     let Some(mut window) = window(Some(path)) else {

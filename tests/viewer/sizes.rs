@@ -1,4 +1,4 @@
-//! Windows of all sizes and scales: no size panics while rays are traced, and every control can be reached.
+//! Windows of all sizes and scales: resizing while rays are traced never panics, and every control can be reached.
 
 use crate::harness::{
     Window, app, app_on, click, gpu, in_picture, press, run_command, shared_setup, wait,
@@ -20,7 +20,7 @@ fn pixels(window: &Window) -> UVec2 {
 }
 
 #[test]
-fn a_storm_of_sizes_and_scales_while_rays_are_traced_ends_with_the_right_picture() {
+fn many_sizes_and_scales_while_rays_are_traced_end_with_the_right_picture() {
     let Some(mut window) = app(None) else { return };
     press(&mut window, egui::Key::W);
     let mut random = Random::new(5);
@@ -48,7 +48,7 @@ fn a_storm_of_sizes_and_scales_while_rays_are_traced_ends_with_the_right_picture
 }
 
 #[test]
-fn a_minimised_window_goes_on_and_shows_its_picture_afterwards() {
+fn a_minimised_window_keeps_running_and_shows_its_picture_afterwards() {
     let Some(mut window) = app(None) else { return };
     // As winit reports a minimised window on Windows.
     window.set_size(Vec2::ZERO);

@@ -3,16 +3,12 @@
 use super::App;
 use super::labels::labels_ui;
 use super::pick::Pick;
-use crate::document::Document;
 use crate::gpu::GpuError;
 use crate::look::Development;
 use crate::overlay::{self, Marks, OverlayInput};
-use crate::settings::Settings;
 use crate::theme;
-use crate::tracer::Request;
 use egui::{Color32, Pos2, Rect, Sense};
 use glam::{DVec2, UVec2};
-use hitscope_core::integrator::{Context, Lighting, Setting};
 use hitscope_core::{Camera, Scene};
 use std::sync::Arc;
 use std::time::Duration;
@@ -147,48 +143,6 @@ impl App {
         }
     }
 
-    /// The request for the current camera and settings.
-    pub(super) fn wanted(&mut self, ctx: &egui::Context, resolution: UVec2) -> Request {
-        let kept = self.traced.lights.take();
-        let (document, settings) = (&self.open.document, &self.seen.settings);
-        let (lighting, lights) = self.lighting(settings, &document.loaded, kept);
-        let camera = self.seen.turntable.camera(resolution);
-        let request = self.request_of(document, settings, camera, lighting, ctx.theme());
-        self.traced.lights = lights;
-        request
-    }
-
-    /// The request for a document as these settings show it.
-    pub(super) fn request_of(
-        &self,
-        document: &Document,
-        settings: &Settings,
-        camera: Camera,
-        lighting: Lighting,
-        theme: egui::Theme,
-    ) -> Request {
-        let view = settings.view();
-        let mut options = settings.colours.options(view);
-        if view.needs.uses(Setting::PartColours) && is_mesh_of(document, &self.open.document) {
-            options.surface_colours = self.seen.parts.colours().cloned();
-        }
-        Request {
-            context: Context {
-                scene: Arc::clone(&document.loaded.scene),
-                intersector: Arc::clone(document.intersector()),
-                second: Arc::clone(document.second()),
-                camera,
-                shading: settings.shading(),
-                background: theme::background(view, settings.colours.background, theme),
-                lighting,
-                options,
-            },
-            integrator: view,
-            samples: settings.samples,
-            shows_last_tree: view.needs.final_tree && document.has_last_tree(),
-        }
-    }
-
     /// Uploads the changes of the traced picture.
     fn show_changes(&mut self, ctx: &egui::Context) {
         let changed = self
@@ -314,11 +268,6 @@ impl App {
             scale: pixels_per_point.max(1.0),
         }
     }
-}
-
-/// Whether both documents show the same mesh.
-fn is_mesh_of(document: &Document, other: &Document) -> bool {
-    std::ptr::eq(document.loaded.scene.mesh(), other.loaded.scene.mesh())
 }
 
 /// Draws a ring around a picked point.

@@ -122,8 +122,7 @@ impl App {
 
     pub(super) fn show(&mut self, document: Document, ctx: &egui::Context) {
         let is_same_file = self.open.document.path == document.path;
-        let origin = |document: &Document| document.loaded.scene.mesh().origin();
-        let shift = origin(&self.open.document) - origin(&document);
+        let shift = self.open.document.origin() - document.origin();
         let old = std::mem::replace(&mut self.open.document, document);
         self.compared.keep_earlier(old, is_same_file);
         if let Some(path) = &self.open.document.path {

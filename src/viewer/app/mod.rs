@@ -16,6 +16,7 @@
 //! | `path`, `flaws` | the path of a sample of the picked pixel; the marked flaws |
 //! | `clipping`, `hiding` | the part of the scene that is shown |
 //! | `comparing` | the comparison with another picture |
+//! | `request` | requests to the tracers |
 //! | `legend` | the legend in the picture, and its range |
 //! | `light` | lights, environment, exposure |
 //! | `reopening` | continuing in another window after the device was lost |
@@ -58,6 +59,7 @@ mod pixel_values;
 mod pointer;
 mod prepare;
 mod reopening;
+mod request;
 mod sessions;
 mod side_panel;
 mod state;

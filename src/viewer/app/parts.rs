@@ -207,14 +207,14 @@ pub(crate) struct Traced {
 
 impl Traced {
     pub fn new(tracer: Tracer, render_state: &RenderState) -> Self {
-        let is_software = render_state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        let adapter = render_state.adapter.get_info().device_type;
         Self {
             tracer,
             development: Development::default(),
             picture: Picture::new(render_state),
             lights: None,
             environment_file: EnvironmentFile::default(),
-            overlay: OverlayLayer::new(render_state, is_software),
+            overlay: OverlayLayer::new(render_state, adapter),
             range_fit: RangeFit::default(),
             on_screen: None,
             shown: ShownPixels::default(),

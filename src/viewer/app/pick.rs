@@ -285,7 +285,7 @@ impl App {
         let scene = Arc::clone(&document.loaded.scene);
         let intersector = Arc::clone(document.intersector());
         // Picks are kept in the coordinates of the open scene.
-        let origin = self.open.document.loaded.scene.mesh().origin();
+        let origin = self.open.document.origin();
         let traced_camera = self.camera_in(document, camera);
         let is_of_open_scene = !self.inspects_other_scene();
         // In the background: each kernel tests every triangle near the ray, which may be a million in a bad mesh.

@@ -152,11 +152,7 @@ impl App {
         };
         key.request.context.camera = *camera;
         let values = &mut self.shown.magnifier.values;
-        if values
-            .found
-            .as_ref()
-            .is_none_or(|(known, _)| *known != key)
-        {
+        if values.found.as_ref().is_none_or(|(known, _)| *known != key) {
             let wanted = key.clone();
             let start = || Task::spawn("pixel values", ctx, move || wanted.values());
             values.found = values

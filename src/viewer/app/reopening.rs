@@ -46,10 +46,10 @@ impl App {
         self.faults = Faults::watch(&render_state.device, ctx);
         self.shown.about = AboutSheet::new(&render_state);
         self.traced.picture = Picture::new(&render_state);
-        let is_software = render_state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        let adapter = render_state.adapter.get_info().device_type;
         // Side B is created again, but an earlier version of the file is lost.
         self.compared = Compared::new(&render_state);
-        self.traced.overlay = OverlayLayer::new(&render_state, is_software);
+        self.traced.overlay = OverlayLayer::new(&render_state, adapter);
         // The whole picture is uploaded again.
         self.traced.development = Development::default();
         self.traced.tracer.show_again();

@@ -2,35 +2,16 @@
 
 use crate::app::App;
 use crate::gpu::upload::shortage;
-use crate::harness::{Window, app_on, gpu, press, wait};
+use crate::harness::{app_on_own_device, press, wait};
 use crate::overlay::wireframe::WIREFRAME;
-use eframe::egui_wgpu::{WgpuSetup, WgpuSetupExisting};
 use egui::{Key, vec2};
 
 const MESSAGE: &str =
     "the graphics adapter has no memory left for the picture or the lines over it";
 
-/// A window on a device of its own, and the device.
-fn window() -> Option<(Window, wgpu::Device)> {
-    let gpu = gpu()?;
-    let made = pollster::block_on(
-        gpu.adapter
-            .request_device(&wgpu::DeviceDescriptor::default()),
-    );
-    let (device, queue) = made.expect("the adapter gives another device");
-    std::mem::forget((device.clone(), queue.clone()));
-    let setup = WgpuSetup::Existing(WgpuSetupExisting {
-        instance: gpu.instance.clone(),
-        adapter: gpu.adapter.clone(),
-        device: device.clone(),
-        queue,
-    });
-    Some((app_on(setup, None, vec2(800.0, 600.0), 1.0), device))
-}
-
 #[test]
 fn lines_without_memory_are_turned_off_and_can_be_turned_on_when_there_is_some() {
-    let Some((mut window, device)) = window() else {
+    let Some((mut window, device)) = app_on_own_device() else {
         return;
     };
     shortage::set(&device, true);
@@ -51,7 +32,7 @@ fn lines_without_memory_are_turned_off_and_can_be_turned_on_when_there_is_some()
 
 #[test]
 fn a_picture_without_memory_comes_back_when_there_is_some() {
-    let Some((mut window, device)) = window() else {
+    let Some((mut window, device)) = app_on_own_device() else {
         return;
     };
     press(&mut window, Key::W);

@@ -110,7 +110,9 @@ impl Source {
     pub fn about(self) -> &'static str {
         match self {
             Self::Traced => "Side B is the open scene, traced with another view, kernel or shading",
-            Self::Rasterized => "Side B is the open scene, whose visible triangles the GPU's rasterizer finds",
+            Self::Rasterized => {
+                "Side B is the open scene, whose visible triangles the GPU's rasterizer finds"
+            }
             Self::Mesh => "Side B is the mesh or scene of another file",
             Self::Earlier => "Side B is the open file before it was last reloaded",
             Self::Picture => "Side B is a PNG, EXR or HDR picture",

@@ -61,8 +61,9 @@ pub struct OverlayLayer {
 }
 
 impl OverlayLayer {
-    /// Compiles the shaders. `is_software` says whether the adapter is software.
-    pub fn new(render_state: &RenderState, is_software: bool) -> Self {
+    /// Compiles the shaders. Draws as on an adapter of this type.
+    pub fn new(render_state: &RenderState, adapter: wgpu::DeviceType) -> Self {
+        let is_software = adapter == wgpu::DeviceType::Cpu;
         let overlay = Arc::new(Overlay::new(&render_state.device, &render_state.queue));
         Self {
             painter: Painter::new(Arc::clone(&overlay), is_software),
@@ -177,7 +178,16 @@ impl OverlayLayer {
             traced,
             sets,
         };
-        let texture = match self.painter.draw(&drawing, ctx) {
+        self.paint(&drawing, ctx)
+    }
+
+    /// Draws, and remembers a size for which there isn't enough memory.
+    fn paint(
+        &mut self,
+        drawing: &Drawing,
+        ctx: &egui::Context,
+    ) -> Result<Option<wgpu::Texture>, OverlayError> {
+        let texture = match self.painter.draw(drawing, ctx) {
             Ok(texture) => texture.cloned(),
             Err(error) => {
                 let lacks_memory = matches!(error, OverlayError::Gpu(_));
@@ -185,7 +195,7 @@ impl OverlayLayer {
                 return Err(error);
             }
         };
-        self.is_complete &= self.painter.is_shown(&drawing);
+        self.is_complete &= self.painter.is_shown(drawing);
         Ok(texture)
     }
 

@@ -1,19 +1,16 @@
 //! The tab *Compare*: the sides, the mode and the figures of a comparison.
 
-use super::{row_ui, section_ui};
+mod figures;
+
 use crate::command::{COMPARE_MODES, Commands};
-use crate::comparison::{
-    Comparison, Figures, GAINS, MeshDistances, Mode, Rasterized, Source, VisibilityDifference,
-};
-use crate::numbers::significant;
+use crate::comparison::{Comparison, Figures, GAINS, MeshDistances, Mode, Rasterized, Source};
 use crate::opening::Loading;
 use crate::settings::Settings;
 use egui::{ComboBox, RichText, Slider};
+use figures::figures_ui;
 use glam::UVec2;
 use hitscope_core::group::ShapeKernels;
 use hitscope_core::integrator::{INTEGRATORS, Integrator};
-use hitscope_lab::picture_comparison::PictureComparison;
-use hitscope_lab::surface_comparison::{DistanceFigures, OneSided};
 
 /// The contents of the tab besides the choices.
 pub struct CompareView<'a> {
@@ -49,7 +46,9 @@ pub fn compare_ui(
 ) -> bool {
     commands.check_box_ui(ui, "compare");
     if !comparison.is_on {
-        ui.label(RichText::new("Compares the picture with another one for the same camera.").weak());
+        ui.label(
+            RichText::new("Compares the picture with another one for the same camera.").weak(),
+        );
         return false;
     }
     ui.horizontal_wrapped(|ui| {
@@ -138,7 +137,9 @@ fn source_ui(
                 .weak(),
             );
             if let Some(shapes) = &view.not_drawn {
-                ui.label(format!("Not rasterized, because they aren't triangles: {shapes}"));
+                ui.label(format!(
+                    "Not rasterized, because they aren't triangles: {shapes}"
+                ));
             }
         }
         Source::Mesh => {
@@ -152,7 +153,9 @@ fn source_ui(
                     ui.spinner();
                 }
             });
-            ui.label(RichText::new("Side A is traced at the size of the reference picture.").weak());
+            ui.label(
+                RichText::new("Side A is traced at the size of the reference picture.").weak(),
+            );
         }
         Source::Earlier if view.lacks_earlier => {
             ui.label("There is no earlier version: the file hasn't been reloaded.");
@@ -191,10 +194,10 @@ fn looks_of_a_ui(ui: &mut egui::Ui, settings: &mut Settings, view: &CompareView<
     if let Some(name) = chosen.filter(|name| name != kernel.name) {
         settings.keep_kernel(&name);
     }
-    let mut chosen = Some(shading(settings.is_smooth).to_owned());
-    let used = shading(settings.is_smooth);
+    let mut chosen = Some(Settings::shading_name(settings.is_smooth).to_owned());
+    let used = Settings::shading_name(settings.is_smooth);
     choice_ui(ui, "Shading of A", &mut chosen, used, None, shadings());
-    settings.is_smooth = chosen.as_deref() == Some(shading(true));
+    settings.is_smooth = chosen.as_deref() == Some(Settings::shading_name(true));
 }
 
 /// View, kernel and shading of side B.
@@ -234,10 +237,12 @@ fn looks_of_b_ui(
             kernels,
         );
     }
-    let mut chosen = comparison.is_smooth.map(|is| shading(is).to_owned());
-    let used = shading(of_b.is_smooth);
+    let mut chosen = comparison
+        .is_smooth
+        .map(|is| Settings::shading_name(is).to_owned());
+    let used = Settings::shading_name(of_b.is_smooth);
     choice_ui(ui, "Shading of B", &mut chosen, used, AS_A, shadings());
-    comparison.is_smooth = chosen.map(|chosen| chosen == shading(true));
+    comparison.is_smooth = chosen.map(|chosen| chosen == Settings::shading_name(true));
 }
 
 /// The names of choices, with their titles.
@@ -257,13 +262,9 @@ fn kernels(shapes: &[ShapeKernels]) -> Choices {
     choice.collect()
 }
 
-fn shading(is_smooth: bool) -> &'static str {
-    if is_smooth { "smooth" } else { "flat" }
-}
-
 fn shadings() -> Choices {
-    let choice = |is_smooth: bool| (shading(is_smooth), shading(is_smooth).to_owned());
-    [false, true].map(choice).to_vec()
+    let names = [false, true].map(Settings::shading_name);
+    names.map(|name| (name, name.to_owned())).to_vec()
 }
 
 /// Shows a drop-down list of choices. Its first entry is `none`, if there may be no choice.
@@ -300,98 +301,4 @@ fn choice_ui(
             });
         combo.response.labelled_by(label.id);
     });
-}
-
-fn figures_ui(ui: &mut egui::Ui, comparison: &Comparison, view: &CompareView<'_>) {
-    if let Some([a, b]) = view.sizes {
-        ui.label(format!(
-            "The sides differ in size: {}×{} and {}×{} pixels",
-            a.x, a.y, b.x, b.y
-        ));
-    }
-    if let Some(figures) = view.figures {
-        picture_ui(ui, &figures.picture);
-        if let Some(visibility) = figures.visibility {
-            visibility_ui(ui, visibility);
-        }
-    } else if view.sizes.is_none() {
-        ui.label("The figures appear once both sides have pictures.");
-    }
-    if comparison.source.is_other_scene() {
-        match view.distances {
-            Some(Ok(distances)) => distances_ui(ui, distances),
-            Some(Err(reason)) => _ = ui.label(reason),
-            None => {}
-        }
-    }
-}
-
-fn picture_ui(ui: &mut egui::Ui, found: &PictureComparison) {
-    let encoding = if found.is_linear {
-        "Differences, linear RGB"
-    } else {
-        "Differences, sRGB from 0 to 1"
-    };
-    section_ui(ui, encoding, |ui| {
-        let [width, height] = found.size;
-        let count = found.pixels_over_tolerance;
-        let part = significant(found.percent_over_tolerance, 3);
-        let all = u64::from(width) * u64::from(height);
-        row_ui(ui, "Pixels", format!("{count} of {all} differ ({part} %)"));
-        row_ui(ui, "MSE", significant(found.mse, 5));
-        row_ui(ui, "RMSE", significant(found.rmse, 5));
-        let psnr = found.psnr_db;
-        let psnr = psnr.map_or("no difference".to_owned(), |psnr| format!("{psnr:.2} dB"));
-        row_ui(ui, "PSNR", psnr);
-        if let Some(relative) = found.relative_mse {
-            row_ui(ui, "Relative MSE", significant(relative, 5));
-        }
-        if let Some(worst) = &found.worst {
-            let [x, y] = worst.pixel;
-            let difference = significant(worst.difference, 4);
-            let text = format!("{difference} at {x}, {y} ({})", worst.channel);
-            row_ui(ui, "Largest", text);
-        }
-        if found.non_finite_pixels > 0 {
-            row_ui(ui, "Non-finite pixels", found.non_finite_pixels);
-        }
-    });
-}
-
-fn visibility_ui(ui: &mut egui::Ui, found: VisibilityDifference) {
-    section_ui(ui, "Visible triangles at pixel centres", |ui| {
-        let VisibilityDifference { covered, different } = found;
-        row_ui(ui, "Pixels", format!("{different} of {covered} differ"));
-    });
-}
-
-fn distances_ui(ui: &mut egui::Ui, distances: &MeshDistances) {
-    let (there, back) = (&distances.there, &distances.back);
-    let both = DistanceFigures::both_ways(there.figures(), back.figures());
-    let relative = both.relative_to(distances.diagonal);
-    section_ui(ui, "Distances from A to B", |ui| one_sided_ui(ui, there));
-    section_ui(ui, "Distances from B to A", |ui| one_sided_ui(ui, back));
-    section_ui(ui, "Both ways", |ui| {
-        for (name, length, part) in [
-            ("Mean", both.mean, relative.mean),
-            ("RMS", both.rms, relative.rms),
-            ("Largest", both.max, relative.max),
-        ] {
-            let percent = significant(100.0 * part, 3);
-            let text = format!("{} ({percent} % of the diagonal)", significant(length, 5));
-            row_ui(ui, name, text);
-        }
-    });
-}
-
-fn one_sided_ui(ui: &mut egui::Ui, side: &OneSided) {
-    row_ui(ui, "Mean", significant(side.mean, 5));
-    row_ui(ui, "RMS", significant(side.rms, 5));
-    row_ui(ui, "99th percentile", significant(side.p99, 5));
-    let at = side.worst.position.map(|x| significant(x, 6)).join(", ");
-    row_ui(
-        ui,
-        "Largest",
-        format!("{} at {at}", significant(side.max, 5)),
-    );
 }

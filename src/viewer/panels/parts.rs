@@ -38,7 +38,7 @@ pub fn parts_ui(
     let filter = parts.filter.to_lowercase();
     let is_listed = |number: &usize| {
         list.parts[*number]
-            .name
+            .key
             .name
             .to_lowercase()
             .contains(&filter)

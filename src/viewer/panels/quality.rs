@@ -24,7 +24,9 @@ pub fn quality_ui(
         }
         opens_details = ui
             .selectable_label(chosen.is_none(), "Custom")
-            .on_hover_text("Opens the details. Selected while the settings match none of the levels")
+            .on_hover_text(
+                "Opens the details. Selected while the settings match none of the levels",
+            )
             .clicked();
     });
     CollapsingHeader::new("Details")

@@ -10,7 +10,7 @@ mod choice;
 mod list;
 
 pub use choice::PartsChoice;
-pub use list::{Grouping, Part, PartList, PartKey};
+pub use list::{Grouping, Part, PartKey, PartList};
 
 use crate::document::ShownPrimitives;
 use hitscope_core::Scene;

@@ -1,10 +1,10 @@
 //! The monkey's actions, chosen at random.
 
 use super::files;
+use super::inputs::{KEYS, MODIFIERS, PASTES, TEXTS};
 use crate::harness::{Window, pointer, run_command, say};
 use egui::{
-    Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2,
-    pos2, vec2,
+    Event, Key, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, pos2, vec2,
 };
 use egui_kittest::kittest::NodeT as _;
 use hitscope::command::Commands;
@@ -51,112 +51,6 @@ const ACTIONS: &[Action] = &[
     (8, Monkey::wait),
     (2, Monkey::draw),
     (3, Monkey::escape),
-];
-
-const KEYS: &[Key] = &[
-    Key::W,
-    Key::S,
-    Key::N,
-    Key::B,
-    Key::G,
-    Key::X,
-    Key::R,
-    Key::P,
-    Key::T,
-    Key::I,
-    Key::H,
-    Key::O,
-    Key::A,
-    Key::C,
-    Key::V,
-    Key::Z,
-    Key::Y,
-    Key::L,
-    Key::Home,
-    Key::Enter,
-    Key::Period,
-    Key::Tab,
-    Key::Space,
-    Key::Delete,
-    Key::Backspace,
-    Key::ArrowDown,
-    Key::ArrowUp,
-    Key::ArrowLeft,
-    Key::ArrowRight,
-    Key::PageUp,
-    Key::PageDown,
-    Key::F1,
-    Key::F2,
-    Key::F3,
-    Key::F4,
-    Key::F5,
-    Key::F6,
-    Key::F7,
-    Key::F8,
-    Key::F12,
-    Key::Num0,
-    Key::Num1,
-    Key::Num2,
-    Key::Num3,
-    Key::Num4,
-    Key::Num5,
-    Key::Num6,
-    Key::Num7,
-    Key::Num8,
-    Key::Num9,
-    Key::OpenBracket,
-    Key::CloseBracket,
-    Key::Plus,
-    Key::Minus,
-    Key::End,
-];
-
-const MODIFIERS: &[Modifiers] = &[
-    Modifiers::NONE,
-    Modifiers::NONE,
-    Modifiers::NONE,
-    Modifiers::SHIFT,
-    Modifiers::COMMAND,
-    Modifiers::ALT,
-    Modifiers {
-        shift: true,
-        ..Modifiers::COMMAND
-    },
-];
-
-const TEXTS: &[&str] = &[
-    "0",
-    "-1",
-    "1e9",
-    "1e-9",
-    "nan",
-    "inf",
-    "-0",
-    "1,2,3",
-    "12345678901234567890",
-    "é",
-    "شع",
-    "日本",
-    " ",
-    "",
-    "wire",
-    "triangle",
-    "99999",
-    "0.5",
-    "1/0",
-    "#",
-    "a\tb",
-];
-
-const PASTES: &[&str] = &[
-    "--eye 1,2,3 --target 0,0,0 --up 0,1,0",
-    "--eye nan,0,0 --target 0,0,0",
-    "--eye 1e30,0,0",
-    "--eye 0,0,0 --target 0,0,0",
-    "--ortho 0",
-    "--fov 179 --eye 5,5,5",
-    "text",
-    "--size 0x0",
 ];
 
 impl Monkey {

@@ -1,9 +1,10 @@
-//! Random actions: none panics, none makes the graphics device report an error, and closing gives the memory back.
+//! Random actions cause no panic and no error of the graphics device, and closing the window frees the memory.
 //!
 //! `HITSCOPE_MONKEY=10000` sets the number of actions, `HITSCOPE_MONKEY_SEED=7` the seed of the first window.
 
 mod actions;
 mod files;
+mod inputs;
 
 pub use files::grid;
 
@@ -49,9 +50,8 @@ fn play(seed: u64, count: usize, folder: &Path) -> Option<()> {
 }
 
 #[test]
-fn random_actions_neither_panic_nor_upset_the_gpu_and_closing_gives_the_memory_back() {
-    let name =
-        "monkey::random_actions_neither_panic_nor_upset_the_gpu_and_closing_gives_the_memory_back";
+fn random_actions_cause_no_panic_or_gpu_error_and_closing_frees_the_memory() {
+    let name = "monkey::random_actions_cause_no_panic_or_gpu_error_and_closing_frees_the_memory";
     alone(name, |folder| {
         let count = number("HITSCOPE_MONKEY").unwrap_or(FEW);
         let seed = number("HITSCOPE_MONKEY_SEED").unwrap_or(1) as u64;
@@ -73,9 +73,9 @@ fn random_actions_neither_panic_nor_upset_the_gpu_and_closing_gives_the_memory_b
 }
 
 #[test]
-fn a_hundred_files_opened_and_closed_give_their_memory_back() {
+fn opening_and_closing_a_hundred_files_frees_their_memory() {
     alone(
-        "monkey::a_hundred_files_opened_and_closed_give_their_memory_back",
+        "monkey::opening_and_closing_a_hundred_files_frees_their_memory",
         |folder| {
             let Some(mut window) = app(None) else { return };
             press(&mut window, Key::W);

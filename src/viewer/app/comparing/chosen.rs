@@ -5,6 +5,7 @@ use crate::command::Commands;
 use crate::comparison::{Comparison, Mode, Rasterized, Side, Source};
 use crate::panels::compare::{CompareView, compare_ui};
 use crate::panels::kernel_name;
+use crate::settings::Settings;
 use crate::tab::Tab;
 use hitscope_core::obj::shown;
 use std::path::{Path, PathBuf};
@@ -76,7 +77,7 @@ impl App {
             Side::A => self.seen.settings.clone(),
             Side::B => self.other_settings(),
         };
-        let shading = if settings.is_smooth { "smooth" } else { "flat" };
+        let shading = Settings::shading_name(settings.is_smooth);
         let kernel = kernel_name(settings.kernel().info.name);
         let view = settings.view().title;
         let looks = format!("{view}, {kernel}, {shading}");

@@ -72,8 +72,7 @@ impl App {
         let ray = ShownPixel { camera, ..*shown }.ray();
         let hit = document.intersector().closest_hit(&ray)?;
         let point = ray.origin.as_dvec3() + f64::from(hit.t) * ray.dir.as_dvec3();
-        let origin = |document: &Document| document.loaded.scene.mesh().origin();
-        Some(point + origin(document) - origin(&self.open.document))
+        Some(point + document.origin() - self.open.document.origin())
     }
 
     /// The document of side B, if it is traced.

@@ -83,12 +83,12 @@ impl App {
 
     /// A camera of side A in the coordinates of another document.
     pub(in crate::app) fn camera_in(&self, document: &Document, camera: Camera) -> Camera {
-        moved(camera, origin(&self.open.document) - origin(document))
+        moved(camera, self.open.document.origin() - document.origin())
     }
 
     /// A camera of another document in the coordinates of side A.
     pub(super) fn camera_from(&self, document: &Document, camera: Camera) -> Camera {
-        moved(camera, origin(document) - origin(&self.open.document))
+        moved(camera, document.origin() - self.open.document.origin())
     }
 
     /// Traces or rasterizes side B for the camera that side A is being traced for.
@@ -203,10 +203,6 @@ impl App {
             }
         }
     }
-}
-
-fn origin(document: &Document) -> DVec3 {
-    document.loaded.scene.mesh().origin()
 }
 
 /// A camera that is moved by a vector. Moving by 0 changes no bit.

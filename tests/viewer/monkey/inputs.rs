@@ -1,0 +1,113 @@
+//! What the monkey presses, types and pastes.
+
+use egui::{Key, Modifiers};
+
+/// Keys that the monkey presses.
+pub const KEYS: &[Key] = &[
+    Key::W,
+    Key::S,
+    Key::N,
+    Key::B,
+    Key::G,
+    Key::X,
+    Key::R,
+    Key::P,
+    Key::T,
+    Key::I,
+    Key::H,
+    Key::O,
+    Key::A,
+    Key::C,
+    Key::V,
+    Key::Z,
+    Key::Y,
+    Key::L,
+    Key::Home,
+    Key::Enter,
+    Key::Period,
+    Key::Tab,
+    Key::Space,
+    Key::Delete,
+    Key::Backspace,
+    Key::ArrowDown,
+    Key::ArrowUp,
+    Key::ArrowLeft,
+    Key::ArrowRight,
+    Key::PageUp,
+    Key::PageDown,
+    Key::F1,
+    Key::F2,
+    Key::F3,
+    Key::F4,
+    Key::F5,
+    Key::F6,
+    Key::F7,
+    Key::F8,
+    Key::F12,
+    Key::Num0,
+    Key::Num1,
+    Key::Num2,
+    Key::Num3,
+    Key::Num4,
+    Key::Num5,
+    Key::Num6,
+    Key::Num7,
+    Key::Num8,
+    Key::Num9,
+    Key::OpenBracket,
+    Key::CloseBracket,
+    Key::Plus,
+    Key::Minus,
+    Key::End,
+];
+
+/// Modifiers of keys, clicks and drags; mostly none.
+pub const MODIFIERS: &[Modifiers] = &[
+    Modifiers::NONE,
+    Modifiers::NONE,
+    Modifiers::NONE,
+    Modifiers::SHIFT,
+    Modifiers::COMMAND,
+    Modifiers::ALT,
+    Modifiers {
+        shift: true,
+        ..Modifiers::COMMAND
+    },
+];
+
+/// Texts that the monkey types.
+pub const TEXTS: &[&str] = &[
+    "0",
+    "-1",
+    "1e9",
+    "1e-9",
+    "nan",
+    "inf",
+    "-0",
+    "1,2,3",
+    "12345678901234567890",
+    "é",
+    "شع",
+    "日本",
+    " ",
+    "",
+    "wire",
+    "triangle",
+    "99999",
+    "0.5",
+    "1/0",
+    "#",
+    "a\tb",
+];
+
+/// Texts that the monkey pastes: views, and other text.
+pub const PASTES: &[&str] = &[
+    "--eye 1,2,3 --target 0,0,0 --up 0,1,0",
+    "--eye nan,0,0 --target 0,0,0",
+    "--eye 1e30,0,0",
+    "--eye 0,0,0 --target 0,0,0",
+    "--ortho 0",
+    "--fov 179 --eye 5,5,5",
+    "text",
+    "--size 0x0",
+];
