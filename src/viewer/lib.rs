@@ -8,7 +8,7 @@
 //! | [`app`] | the app: its state and the order of work in a frame |
 //! | [`bindings`] | what drags and the wheel do on the picture |
 //! | [`command`] | the commands of keys, buttons and menus, as one table |
-//! | [`launch`], [`display`] | opening the window, and reopening it if the device is lost; the choice of the display server |
+//! | [`launch`], [`display`] | opening the window, again if the device is lost; the choice of the display server |
 //! | [`document`], [`opening`], [`watch`] | the open file, opening it, and watching it for changes |
 //! | [`recent`], [`folder`] | the files that were opened last; the files beside the open one |
 //! | [`saving`], [`dialog`] | saving it as a scene file; file dialogs |
