@@ -221,7 +221,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_are_written_in_decimal_or_exactly() {
+    fn values_are_shown_in_decimal_or_exactly() {
         let third = Value::Number(1.0 / 3.0);
         assert_eq!(third.text(false), "0.33333");
         assert_eq!(third.text(true), "0x1.5555555555555p-2");

@@ -16,7 +16,7 @@ const SHADING: Place = Place::new(Menu::View, 1);
 const LINES: Place = Place::new(Menu::View, 2);
 const OVERLAYS: Place = Place::submenu(Menu::View, 2, "Overlay");
 const REFINEMENT: Place = Place::new(Menu::View, 3);
-/// The sets of settings from a draft to exact.
+/// The quality levels, from a draft to a reference.
 pub const QUALITIES: Place = Place::submenu(Menu::View, 4, "Quality");
 const KERNELS: Place = Place::submenu(Menu::View, 4, "Kernel");
 
@@ -148,7 +148,7 @@ impl Commands {
     }
 }
 
-/// The sets of settings from a draft to exact.
+/// The quality levels, from a draft to a reference.
 pub(super) fn qualities(app: &App) -> Vec<Entry> {
     let current = Quality::of(&app.seen.settings).map(|quality| quality.title);
     let entry = |quality: &'static Quality| {

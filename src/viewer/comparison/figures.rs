@@ -18,7 +18,7 @@ pub enum Pixels {
 }
 
 /// The pictures to compare.
-pub struct Compare {
+pub struct ComparedPictures {
     /// Width and height of both sides.
     pub size: UVec2,
     /// Side A.
@@ -69,7 +69,7 @@ impl Pixels {
     }
 }
 
-impl Compare {
+impl ComparedPictures {
     /// Computes the figures. A pixel counts as different if any channel differs.
     ///
     /// # Errors
@@ -125,7 +125,7 @@ mod tests {
     fn different_pixels_are_counted_in_any_encoding() {
         let size = UVec2::new(2, 1);
         let figures = |a, b| {
-            let compare = Compare {
+            let compare = ComparedPictures {
                 size,
                 a,
                 b,
@@ -145,7 +145,7 @@ mod tests {
             encoding: PictureEncoding::Linear,
             texels: vec![[0.0; 4]],
         };
-        let compare = Compare {
+        let compare = ComparedPictures {
             size,
             a: linear(0.0),
             b: Pixels::File(Arc::new(file)),

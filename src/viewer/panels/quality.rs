@@ -1,4 +1,4 @@
-//! The quality in the Display tab: the sets of settings, with their speed and accuracy in this scene.
+//! The quality levels in the Display tab, with their speed and accuracy in this scene.
 
 use super::row_ui;
 use crate::command::{Commands, QUALITIES};

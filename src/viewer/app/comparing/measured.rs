@@ -2,7 +2,8 @@
 
 use crate::app::App;
 use crate::comparison::{
-    Compare, DistanceMap, Figures, MapKey, MeshDistances, Mode, Pixels, Source, SurfacePair,
+    ComparedPictures, DistanceMap, Figures, MapKey, MeshDistances, Mode, Pixels, Source,
+    SurfacePair,
 };
 use crate::tab::Tab;
 use crate::task::{Task, TaskPanicked, in_own_pool};
@@ -95,10 +96,10 @@ impl App {
             ctx.request_repaint_after(left);
             return;
         }
-        let Some(compare) = self.compare() else {
+        let Some(pictures) = self.compared_pictures() else {
             return;
         };
-        let work = move || in_own_pool(|| compare.figures());
+        let work = move || in_own_pool(|| pictures.figures());
         let changes = self.compared.screen.changes;
         let measured = &mut self.compared.measured;
         measured.figures_begun = Some(Instant::now());
@@ -112,7 +113,7 @@ impl App {
     }
 
     /// Both pictures, if they have the same size.
-    fn compare(&self) -> Option<Compare> {
+    fn compared_pictures(&self) -> Option<ComparedPictures> {
         let film = self.traced.tracer.film();
         let (size, b) = self.compared.pixels()?;
         if size != film.size() || film.passes_done() == 0 {
@@ -140,7 +141,7 @@ impl App {
         };
         let is_rasterized = self.compared.source == Source::Rasterized;
         let rasterized = self.compared.rasterized.picture();
-        Some(Compare {
+        Some(ComparedPictures {
             size,
             a,
             b,
@@ -277,13 +278,13 @@ impl App {
             }
         };
         let has_figures = || self.has_figures() && self.compared.measured.figures_task.is_none();
-        let is_compared = self.compare_is_possible();
+        let is_compared = self.is_comparable();
         (!self.shows(Mode::Distance) || has_map())
             && (!self.shows_figures() || !is_compared || has_figures())
     }
 
     /// Whether both pictures exist and have the same size.
-    fn compare_is_possible(&self) -> bool {
+    fn is_comparable(&self) -> bool {
         let size = self.traced.tracer.film().size();
         self.compared
             .pixels()
