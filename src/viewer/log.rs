@@ -1,7 +1,7 @@
 //! The log: all messages since the start.
 
 use crate::log_links::{Link, Target, links};
-use egui::{Grid, Modal, RichText, ScrollArea, vec2};
+use egui::{Modal, RichText, ScrollArea, vec2};
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -62,6 +62,9 @@ impl Default for Log {
     }
 }
 
+/// The greatest width of the messages, in points: long ones wrap.
+const WIDEST: f32 = 720.0;
+
 impl Log {
     /// Adds a message. The oldest of too many is dropped.
     /// `document` is the file that is open.
@@ -97,8 +100,9 @@ impl Log {
                 ui.label("No messages yet.");
             }
             let size = ui.ctx().content_rect().size() - vec2(60.0, 120.0);
-            ScrollArea::both()
-                .max_width(size.x)
+            ui.set_width(size.x.clamp(1.0, WIDEST));
+            ScrollArea::vertical()
+                .auto_shrink([false, true])
                 .max_height(size.y)
                 .show(ui, |ui| followed = self.rows_ui(ui, document));
             ui.add_space(6.0);
@@ -119,21 +123,20 @@ impl Log {
     /// Shows the messages. Returns where a clicked link leads.
     fn rows_ui(&self, ui: &mut egui::Ui, document: Option<&Path>) -> Option<Target> {
         let mut followed = None;
-        Grid::new("messages").num_columns(3).show(ui, |ui| {
-            for entry in &self.entries {
-                let visuals = ui.visuals();
-                let colour = match entry.kind {
-                    Kind::Error => visuals.error_fg_color,
-                    Kind::Warning => visuals.warn_fg_color,
-                    Kind::Result => visuals.text_color(),
-                };
+        for entry in &self.entries {
+            let visuals = ui.visuals();
+            let colour = match entry.kind {
+                Kind::Error => visuals.error_fg_color,
+                Kind::Warning => visuals.warn_fg_color,
+                Kind::Result => visuals.text_color(),
+            };
+            ui.horizontal_wrapped(|ui| {
                 ui.label(RichText::new(time_text(entry.since_start)).weak());
                 ui.label(RichText::new(entry.kind.title()).color(colour));
                 let target = entry.text_ui(ui, document);
                 followed = followed.take().or(target);
-                ui.end_row();
-            }
-        });
+            });
+        }
         followed
     }
 }
@@ -141,30 +144,24 @@ impl Log {
 impl Entry {
     /// Shows the text with its links. Returns where a clicked one leads.
     fn text_ui(&self, ui: &mut egui::Ui, document: Option<&Path>) -> Option<Target> {
-        if self.links.is_empty() {
-            ui.label(&self.text);
-            return None;
-        }
         let is_of_document = self.document.as_deref() == document;
         let (mut followed, mut at) = (None, 0);
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = 0.0;
-            for Link { range, target } in &self.links {
-                if at < range.start {
-                    ui.label(&self.text[at..range.start]);
-                }
-                at = range.end;
-                let is_there = is_of_document || matches!(target, Target::File(..));
-                let link = ui.add_enabled(is_there, egui::Link::new(&self.text[range.clone()]));
-                let link = link.on_disabled_hover_text("The message is about another file");
-                if link.clicked() {
-                    followed = Some(target.clone());
-                }
+        ui.spacing_mut().item_spacing.x = 0.0;
+        for Link { range, target } in &self.links {
+            if at < range.start {
+                ui.label(&self.text[at..range.start]);
             }
-            if at < self.text.len() {
-                ui.label(&self.text[at..]);
+            at = range.end;
+            let is_there = is_of_document || matches!(target, Target::File(..));
+            let link = ui.add_enabled(is_there, egui::Link::new(&self.text[range.clone()]));
+            let link = link.on_disabled_hover_text("The message is about another file");
+            if link.clicked() {
+                followed = Some(target.clone());
             }
-        });
+        }
+        if at < self.text.len() {
+            ui.label(&self.text[at..]);
+        }
         followed
     }
 }
