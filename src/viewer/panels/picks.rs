@@ -180,7 +180,12 @@ fn measurements_ui(ui: &mut egui::Ui, view: &PicksView, commands: &Commands) {
     if view.measurements.is_empty() {
         ui.label(RichText::new("Two picks have a distance.").weak());
     } else {
-        let rows = view.measurements.iter().cloned();
+        // One coordinate per line: the panel is narrower than three.
+        let rows = view.measurements.iter().flat_map(|[name, value]| {
+            let names = std::iter::once(name.clone()).chain(std::iter::repeat(String::new()));
+            let coordinates = value.split(", ").map(str::to_owned);
+            names.zip(coordinates).map(|(name, value)| [name, value])
+        });
         egui::ScrollArea::horizontal()
             .id_salt("measurements")
             .show(ui, |ui| {

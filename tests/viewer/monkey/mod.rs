@@ -102,6 +102,10 @@ fn opening_and_closing_a_hundred_files_frees_their_memory() {
             let before = memory_mb().unwrap_or(0.0);
             for k in 0..100 {
                 open(&mut window, k);
+                if k % 25 == 24 {
+                    let now = memory_below(0.0);
+                    say(&format!("after {} files {now:.1} MB", k + 1));
+                }
             }
             settle(&mut window, "grid-3.obj");
             let after = memory_below(GROWTH * before);
