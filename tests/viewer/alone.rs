@@ -69,7 +69,7 @@ pub fn memory_mb() -> Option<f64> {
 /// Waits until this process uses at most `limit` MB, or for some seconds: threads that were told to end take a while.
 /// Returns the memory.
 pub fn memory_below(limit: f64) -> f64 {
-    const PATIENCE: Duration = Duration::from_secs(5);
+    const PATIENCE: Duration = Duration::from_secs(20);
     let start = Instant::now();
     loop {
         if let Some(gpu) = crate::harness::gpu() {
