@@ -1,36 +1,25 @@
 //! Comparison of rasterized and traced triangles, pixel by pixel.
 //!
-//! Triangle numbers are rasterized with the overlay's view and compared with the triangles that the
+//! The rasterizer draws triangle numbers with the overlay's view; they are compared with the triangles that the
 //! renderer's rays hit. They may differ only where a pixel's centre lies on an edge: GPUs snap
 //! vertices to a grid of 1/256 pixel.
 
 use crate::harness::{gpu, say};
-use glam::{DVec2, DVec3, UVec2, Vec2, Vec3};
+use glam::{DVec2, DVec3, UVec2, Vec2};
 use hitscope::document::embedded_scene;
 use hitscope::gpu::adapter::Gpu;
-use hitscope::gpu::texture;
-use hitscope::gpu::view::{self, ViewBinding, ViewUniform};
-use hitscope::offscreen::read_back;
+use hitscope::gpu::rasterizer::Rasterizer;
+use hitscope::gpu::view::ViewUniform;
 use hitscope_core::Scene;
 use hitscope_core::camera::{Camera, Projection};
 use hitscope_core::kernel::triangle_kernel;
 use hitscope_core::obj::{LoadOptions, parse};
 use hitscope_core::progress::Progress;
 use std::path::Path;
-use wgpu::util::DeviceExt as _;
 
 const SIZE: UVec2 = UVec2::new(768, 480);
 /// Vertices snap to 1/256 pixel on each axis; an edge moves by up to twice that, plus rounding in f32.
 const ON_EDGE_PX: f64 = 4.0 / 256.0;
-
-/// Appended to the overlay's view shader: draws each triangle in the colour of its number.
-const SHADER: &str = "
-struct Fragment { @builtin(position) position: vec4f, @location(0) @interpolate(flat) id: u32 };
-@vertex fn vs_main(@location(0) position: vec3f, @builtin(vertex_index) index: u32) -> Fragment {
-    return Fragment(clip_from_position(position), index / 3u + 1u);
-}
-@fragment fn fs_main(fragment: Fragment) -> @location(0) u32 { return fragment.id; }
-";
 
 /// A bumpy closed surface far from the origin.
 fn far_blob() -> Scene {
@@ -84,108 +73,11 @@ fn cameras(scene: &Scene) -> [Camera; 3] {
 }
 
 /// The number of the triangle drawn at each pixel, counted from 1; 0 for none.
-fn rasterized(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    scene: &Scene,
-    camera: &Camera,
-) -> Vec<u32> {
-    let mesh = scene.mesh();
-    let corners: Vec<Vec3> = (0..mesh.triangles().len() as u32)
-        .flat_map(|t| mesh.corners(t))
-        .collect();
-    let vertices = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-        label: None,
-        contents: bytemuck::cast_slice(&corners),
-        usage: wgpu::BufferUsages::VERTEX,
-    });
-    let view = ViewBinding::new(device);
-    view.upload(queue, &ViewUniform::new(camera, &scene.bounds()));
-    let target = |format, usage| {
-        let usage = usage | wgpu::TextureUsages::RENDER_ATTACHMENT;
-        texture(device, "ids", SIZE, format, usage)
-    };
-    let ids = target(wgpu::TextureFormat::R32Uint, wgpu::TextureUsages::COPY_SRC);
-    let depth = target(
-        wgpu::TextureFormat::Depth32Float,
-        wgpu::TextureUsages::empty(),
-    );
-    let pipeline = pipeline(device, &view);
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    {
-        let ids = ids.create_view(&wgpu::TextureViewDescriptor::default());
-        let depth = depth.create_view(&wgpu::TextureViewDescriptor::default());
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &ids,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &depth,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(0.0),
-                    store: wgpu::StoreOp::Discard,
-                }),
-                stencil_ops: None,
-            }),
-            ..Default::default()
-        });
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, view.group(), &[]);
-        pass.set_vertex_buffer(0, vertices.slice(..));
-        pass.draw(0..corners.len() as u32, 0..1);
-    }
-    queue.submit([encoder.finish()]);
-    let pixels = read_back(device, queue, &ids).expect("read back");
-    pixels.into_iter().map(u32::from_le_bytes).collect()
-}
-
-fn pipeline(device: &wgpu::Device, view: &ViewBinding) -> wgpu::RenderPipeline {
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: None,
-        source: wgpu::ShaderSource::Wgsl(format!("{}\n{SHADER}", view::SHADER).into()),
-    });
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &[Some(view.layout())],
-        immediate_size: 0,
-    });
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: None,
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("vs_main"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<Vec3>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &wgpu::vertex_attr_array![0 => Float32x3],
-            })],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: wgpu::TextureFormat::Depth32Float,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Greater),
-            stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState::default(),
-        }),
-        multisample: wgpu::MultisampleState::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("fs_main"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            targets: &[Some(wgpu::TextureFormat::R32Uint.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+fn rasterized(rasterizer: &Rasterizer, scene: &Scene, camera: &Camera) -> Vec<u32> {
+    let mesh = rasterizer.upload(scene).expect("small");
+    let view = ViewUniform::new(camera, &scene.bounds());
+    let pixels = rasterizer.draw(&mesh, &view).expect("drawn");
+    pixels.into_iter().map(|pixel| pixel.triangle).collect()
 }
 
 /// The smallest distance from a pixel's centre to an edge of a triangle (counted from 1).
@@ -217,12 +109,13 @@ fn rasterized_triangles_are_the_triangles_that_rays_hit() {
     let Some(Gpu { device, queue, .. }) = gpu() else {
         return;
     };
+    let rasterizer = Rasterizer::new(device, queue);
     let embedded = embedded_scene().scene;
     let blob = far_blob();
     for (name, scene) in [("embedded", &*embedded), ("far blob", &blob)] {
         let intersector = scene.intersector(triangle_kernel("watertight").expect("in the table"));
         for (view, camera) in cameras(scene).into_iter().enumerate() {
-            let drawn = rasterized(device, queue, scene, &camera);
+            let drawn = rasterized(&rasterizer, scene, &camera);
             let (mut covered, mut different) = (0, 0);
             for (i, drawn) in drawn.into_iter().enumerate() {
                 let pixel = UVec2::new(i as u32 % SIZE.x, i as u32 / SIZE.x);
