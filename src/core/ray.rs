@@ -42,9 +42,9 @@ pub enum RayError {
     IntervalEmpty,
 }
 
-/// Exponents of directions that need no rescaling: with lengths of 2⁻¹⁶ to 2¹⁶ the products of a direction
-/// and two distances stay well inside the range of f32.
-const USUAL: std::ops::Range<i32> = -16..16;
+/// Longest components of directions that need no rescaling: from 2⁻¹⁶ to 2¹⁶, so that the products of a direction and
+/// two distances stay well inside the range of f32.
+const USUAL: std::ops::Range<f32> = 1.0 / 65536.0..65536.0;
 
 impl Ray {
     /// A ray over `0 < t < ∞`.
@@ -72,13 +72,6 @@ impl Ray {
         t_min: f32,
         t_max: f32,
     ) -> Result<Self, RayError> {
-        if !origin.is_finite() {
-            return Err(RayError::OriginNotFinite);
-        } else if !dir.is_finite() {
-            return Err(RayError::DirectionNotFinite);
-        } else if dir == Vec3::ZERO {
-            return Err(RayError::DirectionZero);
-        }
         let ray = Self {
             origin,
             dir,
@@ -87,10 +80,30 @@ impl Ray {
             scale: 0,
             exclude: None,
         };
-        let ray = if USUAL.contains(&exponent_of(dir)) {
-            ray
+        // NaNs fail the comparisons.
+        let size = dir.abs();
+        let is_usual =
+            size.cmplt(Vec3::splat(USUAL.end)).all() && size.max_element() >= USUAL.start;
+        if is_usual && origin.is_finite() && t_min < t_max {
+            return Ok(ray);
+        }
+        ray.checked()
+    }
+
+    /// The ray with a direction of usual length.
+    #[cold]
+    fn checked(self) -> Result<Self, RayError> {
+        if !self.origin.is_finite() {
+            return Err(RayError::OriginNotFinite);
+        } else if !self.dir.is_finite() {
+            return Err(RayError::DirectionNotFinite);
+        } else if self.dir == Vec3::ZERO {
+            return Err(RayError::DirectionZero);
+        }
+        let ray = if USUAL.contains(&self.dir.abs().max_element()) {
+            self
         } else {
-            ray.rescaled()
+            self.rescaled()
         };
         if ray.t_min < ray.t_max {
             Ok(ray)
@@ -100,7 +113,6 @@ impl Ray {
     }
 
     /// The ray with a direction of usual length, or unchanged if scaling would round a component.
-    #[cold]
     fn rescaled(self) -> Self {
         let exponent = exponent_of(self.dir);
         let usual = Vec3::from_array(self.dir.to_array().map(|x| scaled(x, -exponent)));

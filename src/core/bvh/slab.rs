@@ -25,9 +25,10 @@
 
 use super::WIDTH;
 use super::walk::{end_slackened, start_slackened};
-use crate::aabb::{Aabb, Planes};
+use crate::aabb::Planes;
 use crate::ray::Ray;
 use fearless_simd::{Simd, f32x8, prelude::*};
+use glam::{BVec3A, Vec3A};
 
 /// 1 + 12u with u = 2⁻²⁴: factor that lengthens far distances ahead of the origin; see the [module](self).
 pub(super) const AHEAD: f32 = 1.0 + 6.0 * f32::EPSILON;
@@ -99,8 +100,10 @@ impl<S: Simd> SlabRay<S> {
 /// A ray prepared for testing single boxes, with the arithmetic of [`SlabRay`]: it meets the box around others if it meets
 /// one of them.
 pub(crate) struct BoxRay {
-    origin: [f32; 3],
-    inverse: [f32; 3],
+    origin: Vec3A,
+    inverse: Vec3A,
+    inverse_far: Vec3A,
+    goes_down: BVec3A,
     t_min: f32,
 }
 
@@ -108,28 +111,32 @@ impl BoxRay {
     /// The ray must not start behind its origin.
     #[inline]
     pub(crate) fn new(ray: &Ray) -> Self {
+        let dir = Vec3A::from(ray.dir);
+        let inverse = 1.0 / dir;
+        // As `inverse_of`.
+        let overflows = dir.cmpne(Vec3A::ZERO) & inverse.abs().cmpgt(Vec3A::splat(MAX_INVERSE));
+        let inverse = Vec3A::select(overflows, Vec3A::NAN, inverse);
         Self {
-            origin: ray.origin.to_array(),
-            inverse: ray.dir.to_array().map(inverse_of),
+            origin: ray.origin.into(),
+            inverse,
+            inverse_far: inverse * AHEAD,
+            goes_down: inverse.cmplt(Vec3A::ZERO),
             t_min: start_slackened(ray.t_min),
         }
     }
 
-    /// Whether a walk up to `t_max` of a tree with these bounds visits any of the root's children.
+    /// Whether a walk up to `t_max` of a tree with these lower and upper bounds visits any of the root's children.
     #[inline]
-    pub(crate) fn meets(&self, bounds: &Aabb, t_max: f32) -> bool {
-        let planes = bounds.planes();
-        let (mut near, mut far) = (self.t_min, end_slackened(t_max));
-        for axis in 0..3 {
-            let (origin, inverse) = (self.origin[axis], self.inverse[axis]);
-            let row = near_row(axis, inverse);
-            // A NaN keeps the bound.
-            let enter = (planes[row] - origin) * inverse;
-            near = if enter > near { enter } else { near };
-            let leave = (planes[row ^ 1] - origin) * (inverse * AHEAD);
-            far = if leave < far { leave } else { far };
-        }
-        near <= far
+    pub(crate) fn meets(&self, [lower, upper]: [Vec3A; 2], t_max: f32) -> bool {
+        let first = Vec3A::select(self.goes_down, upper, lower);
+        let last = Vec3A::select(self.goes_down, lower, upper);
+        let enter = (first - self.origin) * self.inverse;
+        let leave = (last - self.origin) * self.inverse_far;
+        // A NaN keeps the bound.
+        let enter = Vec3A::select(enter.is_nan_mask(), Vec3A::NEG_INFINITY, enter);
+        let leave = Vec3A::select(leave.is_nan_mask(), Vec3A::INFINITY, leave);
+        let near = enter.max_element().max(self.t_min);
+        near <= leave.min_element().min(end_slackened(t_max))
     }
 }
 
@@ -186,6 +193,7 @@ pub(super) fn inverse_of(d: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::aabb::Aabb;
     use crate::bvh::Node;
     use crate::simd::SimdLevel;
     use fearless_simd::dispatch;

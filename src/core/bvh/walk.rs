@@ -85,6 +85,9 @@ pub(crate) trait Visitor<S: Simd> {
     /// Whether the ray's interval may begin behind its origin.
     const IS_BEHIND: bool;
 
+    /// Whether the visitor takes note of the nodes that are opened.
+    const NOTES_NODES: bool;
+
     /// Processes a block and returns the farthest t of interest; a break ends the walk. Boxes at exactly that
     /// distance and a little behind it are still visited.
     fn visit(&mut self, block: usize, slabs: &SlabRay<S>) -> ControlFlow<(), f32>;
@@ -232,6 +235,11 @@ impl Bvh {
     ) {
         if !self.nodes.is_empty() {
             let mut walk = Walk::start(token, ray);
+            if self.block_count() == 1 && !V::NOTES_NODES {
+                // The hits that count don't depend on the root's test.
+                _ = visitor.visit(0, &walk.slabs);
+                return;
+            }
             while !walk.step(self, token, stack, visitor) {}
         }
     }

@@ -5,19 +5,17 @@ use super::record::Recorder;
 use super::transport::ShadingPoint;
 use crate::ray::{Hit, Ray};
 
-/// The part of a camera's ray behind the emitters before the first other surface, with its hit; the ray itself unless
-/// emitters are hidden.
+/// Replaces a camera's ray by its part behind the emitters before the first other surface, and its hit by that of the part;
+/// does nothing unless emitters are hidden.
 #[inline]
 pub(super) fn past_emitters(
     context: &Context,
-    ray: &Ray,
-    hit: Option<Hit>,
+    ray: &mut Ray,
+    hit: &mut Option<Hit>,
     recorder: &mut impl Recorder,
-) -> (Ray, Option<Hit>) {
+) {
     if context.lighting.hides_emitters {
-        search(context, *ray, hit, recorder)
-    } else {
-        (*ray, hit)
+        (*ray, *hit) = search(context, *ray, *hit, recorder);
     }
 }
 

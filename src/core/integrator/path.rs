@@ -5,12 +5,13 @@
 
 use super::hidden_emitters::past_emitters;
 use super::record::{PathEnd, Recorder};
-use super::transport::{Connection, ShadingPoint, emitted, from_afar, shows_background};
+use super::transport::{ShadingPoint, emitted, from_afar, shows_background};
 use super::visibility::transmittances;
 use super::{Context, Integrator, Needs, Sample, Source};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use glam::Vec3;
+use std::mem::swap;
 use std::slice::from_mut;
 
 /// The row of the view.
@@ -40,7 +41,7 @@ pub(super) fn limit(context: &Context) -> Option<u32> {
 pub(super) fn follow_all(context: &Context, samples: &mut [Sample], limit: Option<u32>) {
     let mut paths = Vec::with_capacity(samples.len());
     for sample in samples {
-        (sample.ray, sample.hit) = past_emitters(context, &sample.ray, sample.hit, &mut ());
+        past_emitters(context, &mut sample.ray, &mut sample.hit, &mut ());
         if shows_background(context, sample.hit) {
             sample.radiance = context.background;
         } else {
@@ -58,7 +59,7 @@ pub(super) fn follow_recorded(
     limit: Option<u32>,
     recorder: &mut impl Recorder,
 ) {
-    (sample.ray, sample.hit) = past_emitters(context, &sample.ray, sample.hit, recorder);
+    past_emitters(context, &mut sample.ray, &mut sample.hit, recorder);
     if shows_background(context, sample.hit) {
         recorder.escape(context.background);
         recorder.end(PathEnd::Left, &sample.ray);
@@ -99,41 +100,80 @@ fn follow<R: Recorder>(
 ) {
     let count = paths.len();
     let mut going: Vec<usize> = (0..count).collect();
-    let (mut lit, mut to_lights) = (Vec::with_capacity(count), Vec::with_capacity(count));
-    let (mut rays, mut hits) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    let arrivals = paths.iter().map(|path| (path.sample.ray, path.sample.hit));
+    let (mut rays, mut hits): (Vec<_>, Vec<_>) = arrivals.unzip();
+    let mut next = NextRays::with_capacity(count);
     while !going.is_empty() {
-        going.retain(|&i| {
+        for ((&i, ray), hit) in going.iter().zip(&rays).zip(&hits) {
             let (path, recorder) = (&mut paths[i], &mut recorders[i]);
-            let (connection, end) = path.advance(context, limit, recorder);
-            if let Some(connection) = connection {
-                lit.push((i, connection.light));
-                to_lights.push(connection.ray);
+            let lit = next.to_lights.len();
+            let end = path.advance(context, limit, (ray, hit), recorder, &mut next);
+            if next.to_lights.len() > lit {
+                next.lit.push(i);
             }
             match end {
-                Some(end) => recorder.end(end, &path.sample.ray),
-                None => rays.push(path.sample.ray),
+                Some(end) => recorder.end(end, ray),
+                None => next.going.push(i),
             }
-            end.is_none()
-        });
-        let parts = transmittances(context, &to_lights);
-        for ((i, light), part) in lit.drain(..).zip(parts) {
+        }
+        let parts = transmittances(context, &next.to_lights);
+        for ((&i, &light), part) in next.lit.iter().zip(&next.light).zip(parts) {
             recorders[i].direct(part, part * light);
             paths[i].sample.radiance += part * light;
         }
+        swap(&mut rays, &mut next.onward);
+        swap(&mut going, &mut next.going);
+        next.clear();
         hits.resize(rays.len(), None);
         context.intersector.closest_hits(&rays, &mut hits);
         context.scene.prefetch_surfaces(&hits);
-        for (&i, hit) in going.iter().zip(&hits) {
-            paths[i].sample.hit = *hit;
+    }
+}
+
+/// The next rays of paths.
+struct NextRays {
+    /// The indices of the paths with a ray to a light.
+    lit: Vec<usize>,
+    /// The light of each, if it arrives.
+    light: Vec<Vec3>,
+    /// The rays to the lights.
+    to_lights: Vec<Ray>,
+    /// The indices of the paths that go on.
+    going: Vec<usize>,
+    /// The rays that continue them.
+    onward: Vec<Ray>,
+}
+
+impl NextRays {
+    fn with_capacity(count: usize) -> Self {
+        Self {
+            lit: Vec::with_capacity(count),
+            light: Vec::with_capacity(count),
+            to_lights: Vec::with_capacity(count),
+            going: Vec::with_capacity(count),
+            onward: Vec::with_capacity(count),
         }
-        to_lights.clear();
-        rays.clear();
+    }
+
+    fn clear(&mut self) {
+        self.lit.clear();
+        self.light.clear();
+        self.to_lights.clear();
+        self.going.clear();
+        self.onward.clear();
+    }
+
+    /// Adds a ray that continues a path; without one, numbers have overflowed.
+    #[inline]
+    fn go_on(&mut self, onward: Option<Ray>) -> Result<(), PathEnd> {
+        self.onward.push(onward.ok_or(PathEnd::Overflow)?);
+        Ok(())
     }
 }
 
 /// A path while it is followed.
 struct Path<'a> {
-    /// The ray that continues it, its hit, the random numbers, and the light that has been found.
+    /// Its first ray and hit, its random numbers, and the light that has been found.
     sample: &'a mut Sample,
     /// The point where the ray left a surface or the camera; not the ray's origin once it has passed through a surface
     /// with coverage.
@@ -160,49 +200,53 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// Adds the light that arrives along the ray from the surface that it hits, or from the environment, and chooses the
-    /// path's next ray. Returns a connection to a light, whose light is still to be added if it arrives, and why the
-    /// path ends, if it does.
+    /// Adds the light that arrives along a ray from the surface that it hits, or from the environment. Adds the path's next
+    /// ray to `next`, and a ray to a light, whose light is still to be added if it arrives. Returns why the path ends, if
+    /// it does.
+    #[inline(always)]
     fn advance(
         &mut self,
         context: &Context,
         limit: Option<u32>,
+        (ray, hit): (&Ray, &Option<Hit>),
         recorder: &mut impl Recorder,
-    ) -> (Option<Connection>, Option<PathEnd>) {
-        let ray = self.sample.ray;
-        let Some(hit) = self.sample.hit else {
-            let light = self.throughput * from_afar(context, &ray, self.density);
+        next: &mut NextRays,
+    ) -> Option<PathEnd> {
+        let Some(hit) = *hit else {
+            let light = self.throughput * from_afar(context, ray, self.density);
             recorder.escape(light);
             self.sample.radiance += light;
-            return (None, Some(PathEnd::Left));
+            return Some(PathEnd::Left);
         };
-        let point = ShadingPoint::new(context, &ray, hit);
+        let point = ShadingPoint::new(context, ray, hit);
         recorder.meet(&point);
         if point.opacity < 1.0 && self.sample.sampler.next_1d() >= point.opacity {
             recorder.pass();
-            return (None, self.go_on(point.onward()).err());
+            return next.go_on(point.onward()).err();
         }
         let emission = self.throughput * emitted(&point, self.from, self.density);
         recorder.emission(emission);
         self.sample.radiance += emission;
         if limit.is_some_and(|limit| self.surfaces >= limit) {
-            return (None, Some(PathEnd::DepthLimit));
+            return Some(PathEnd::DepthLimit);
         }
         self.surfaces += 1;
-        let mut connection = point.direct_light(&mut self.sample.sampler);
-        if let Some(connection) = &mut connection {
-            recorder.shadow_ray(connection);
-            connection.light *= self.throughput;
+        if let Some(connection) = point.direct_light(&mut self.sample.sampler) {
+            recorder.shadow_ray(&connection);
+            next.light.push(self.throughput * connection.light);
+            next.to_lights.push(connection.ray);
         }
-        (connection, self.scatter(context, &point, recorder).err())
+        self.scatter(context, &point, recorder, next).err()
     }
 
     /// Continues the path in a direction from which the surface scatters light; the error is why the path ends.
+    #[inline(always)]
     fn scatter(
         &mut self,
         context: &Context,
         point: &ShadingPoint<'_>,
         recorder: &mut impl Recorder,
+        next: &mut NextRays,
     ) -> Result<(), PathEnd> {
         let scattered = point.scatter(&mut self.sample.sampler);
         let scattered = scattered.ok_or(PathEnd::Absorbed)?;
@@ -211,15 +255,9 @@ impl<'a> Path<'a> {
         if self.surfaces >= context.lighting.roulette_depth {
             self.play_roulette(recorder)?;
         }
-        self.go_on(point.spawn(scattered.incoming))?;
+        next.go_on(point.spawn(scattered.incoming))?;
         recorder.scatter(self.throughput);
         (self.from, self.density) = (point.position(), scattered.density);
-        Ok(())
-    }
-
-    /// Continues the path with a ray; without one, numbers have overflowed.
-    fn go_on(&mut self, onward: Option<Ray>) -> Result<(), PathEnd> {
-        self.sample.ray = onward.ok_or(PathEnd::Overflow)?;
         Ok(())
     }
 

@@ -3,7 +3,7 @@
 use super::Context;
 use super::offset::offset_by;
 use crate::appearance::Appearance;
-use crate::bsdf::{Bsdf, Frame, Scatter, Scattered, cosine_direction};
+use crate::bsdf::{Bsdf, Frame, Model, Scatter, Scattered, cosine_direction};
 use crate::interaction::SurfaceInteraction;
 use crate::light::LightSample;
 use crate::ray::{Hit, Ray};
@@ -30,9 +30,14 @@ pub(super) struct ShadingPoint<'a> {
     /// The direction to where the ray comes from, in the frame.
     outgoing: Vec3,
     bsdf: Cow<'a, Bsdf>,
+    model: &'static Model,
+    /// Whether a texture tilts the shading normal.
+    is_tilted: bool,
     /// The offset that the repair of the shadow terminator adds to the origins of rays that leave on the side that the
     /// ray comes from.
     offset: Vec3,
+    /// Whether the ray comes from behind the surface, by its normal in f64.
+    arrives_behind: bool,
     /// The start of rays that leave on the side that the ray comes from, computed on first use; unused with an offset.
     start: Cell<Option<RayStart>>,
     /// The light that the surface emits towards the ray's origin.
@@ -42,6 +47,7 @@ pub(super) struct ShadingPoint<'a> {
 }
 
 impl<'a> ShadingPoint<'a> {
+    #[inline(always)]
     pub fn new(context: &'a Context, ray: &'a Ray, hit: Hit) -> Self {
         Self::repaired(context, ray, hit, context.lighting.terminator.offset)
     }
@@ -51,6 +57,7 @@ impl<'a> ShadingPoint<'a> {
         Self::repaired(context, ray, hit, None)
     }
 
+    #[inline(always)]
     fn repaired(context: &'a Context, ray: &'a Ray, hit: Hit, offset: Option<Offset>) -> Self {
         let scene = &context.scene;
         let surface = scene.surface(ray, &hit);
@@ -63,8 +70,8 @@ impl<'a> ShadingPoint<'a> {
         let is_front = interaction.geometric_normal.dot(ray.dir) <= 0.0;
         let appearance = Appearance::new(scene, material, surface.position, &hit);
         let bsdf = appearance.bsdf(is_front);
-        let has_medium_behind = bsdf.model().transmits;
-        let side = if is_front || has_medium_behind {
+        let model = bsdf.model();
+        let side = if is_front || model.transmits {
             1.0
         } else {
             -1.0
@@ -79,12 +86,15 @@ impl<'a> ShadingPoint<'a> {
             context,
             ray,
             hit,
+            arrives_behind: surface.is_behind(-ray.dir),
             surface,
             outgoing: frame.to_local(to_eye),
             frame,
             untilted,
             normal: side * interaction.geometric_normal,
             bsdf,
+            model,
+            is_tilted: untilted != shading_normal,
             offset: offset.map_or(Vec3::ZERO, |f| offset_by(f, context, &hit, is_front)),
             start: Cell::new(None),
             emission,
@@ -129,8 +139,7 @@ impl<'a> ShadingPoint<'a> {
     #[inline]
     fn start(&self, dir: Vec3) -> RayStart {
         let policy = self.context.lighting.spawn;
-        let is_behind = |dir: Vec3| self.surface.normal.dot(dir.as_dvec3()) < 0.0;
-        if self.offset != Vec3::ZERO || is_behind(dir) != is_behind(-self.ray.dir) {
+        if self.offset != Vec3::ZERO || self.surface.is_behind(dir) != self.arrives_behind {
             return policy.start(&self.departure(policy, dir));
         }
         self.start.get().unwrap_or_else(|| {
@@ -162,9 +171,8 @@ impl<'a> ShadingPoint<'a> {
     #[inline]
     pub fn scatter(&self, sampler: &mut Sampler) -> Option<Scattered> {
         // Numbers that the model doesn't use aren't drawn: those that are drawn together are spread together.
-        let model = self.bsdf.model();
-        let at = sampler.next_2d_if(model.uses_point);
-        let choice = sampler.next_1d_if(model.uses_choice);
+        let at = sampler.next_2d_if(self.model.uses_point);
+        let choice = sampler.next_1d_if(self.model.uses_choice);
         self.in_world(self.bsdf.sample(self.outgoing, at, choice)?)
     }
 
@@ -226,7 +234,7 @@ impl<'a> ShadingPoint<'a> {
     /// Rays that start above the surface may point through it.
     #[inline]
     fn is_consistent(&self, local: Vec3, dir: Vec3) -> bool {
-        if self.untilted != self.frame.z && local.z * self.untilted.dot(dir) <= 0.0 {
+        if self.is_tilted && local.z * self.untilted.dot(dir) <= 0.0 {
             return false;
         }
         let is_reflected = local.z * self.outgoing.z > 0.0;
@@ -240,7 +248,7 @@ impl<'a> ShadingPoint<'a> {
     /// Source: Conty Estevez, Lecocq, Stein, "A Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem",
     /// Ray Tracing Gems, 2019; with Mitsuba's factor.
     fn unshadowed(&self, dir: Vec3) -> f32 {
-        if self.untilted == self.frame.z {
+        if !self.is_tilted {
             return 1.0;
         }
         let squared_tangent = |dir: Vec3| {
@@ -256,7 +264,7 @@ impl<'a> ShadingPoint<'a> {
     /// heuristic; `None` if no light is scattered towards the ray's origin.
     ///
     /// Source: Veach, Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995.
-    #[inline]
+    #[inline(always)]
     pub fn direct_light(&self, sampler: &mut Sampler) -> Option<Connection> {
         self.connection(&self.light_sample(sampler)?)
     }
@@ -274,10 +282,10 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// `None`, and no number is drawn, if there is no light to aim at or the surface scatters none of it.
-    #[inline]
+    #[inline(always)]
     fn light_sample(&self, sampler: &mut Sampler) -> Option<LightSample> {
         let lights = &self.context.lighting.lights;
-        if self.bsdf.model().is_specular || !lights.can_be_sampled() {
+        if self.model.is_specular || !lights.can_be_sampled() {
             return None;
         }
         let at = sampler.next_2d();
@@ -285,7 +293,7 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// The sample of a light for a point of the unit square. The number that chooses among several lights is drawn.
-    #[inline]
+    #[inline(always)]
     fn light_at(&self, at: Vec2, sampler: &mut Sampler) -> Option<LightSample> {
         let Context {
             scene, lighting, ..
@@ -297,7 +305,7 @@ impl<'a> ShadingPoint<'a> {
 
     /// The connection to a sample of a light, weighted by the balance heuristic; `None` if its light is black, or if
     /// numbers overflow.
-    #[inline]
+    #[inline(always)]
     fn connection(&self, sample: &LightSample) -> Option<Connection> {
         let incoming = self.frame.to_local(sample.dir);
         if !self.is_consistent(incoming, sample.dir) {
@@ -353,10 +361,11 @@ pub(super) fn shows_background(context: &Context, hit: Option<Hit>) -> bool {
 /// and rays of the camera.
 pub(super) fn from_afar(context: &Context, ray: &Ray, scattered_with: Option<f32>) -> Vec3 {
     let lights = &context.lighting.lights;
-    let dir = ray.dir.normalize();
-    let Some(light) = lights.from_afar(dir) else {
+    let Some(environment) = lights.environment() else {
         return Vec3::ZERO;
     };
+    let dir = ray.dir.normalize();
+    let light = environment.radiance(dir);
     let weight = scattered_with.map_or(1.0, |own| balance(own, lights.density_of_environment(dir)));
     weight * light
 }

@@ -53,7 +53,8 @@ impl Branch {
 }
 
 fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {
-    let (ray, hit) = past_emitters(context, ray, hit, &mut ());
+    let (mut ray, mut hit) = (*ray, hit);
+    past_emitters(context, &mut ray, &mut hit, &mut ());
     if shows_background(context, hit) {
         return context.background;
     }

@@ -6,6 +6,7 @@ use crate::aabb::Aabb;
 use crate::bvh::{BoxRay, OpenedBox};
 use crate::kernel::{KernelInfo, Precision};
 use crate::ray::{Hit, Ray};
+use glam::Vec3A;
 
 /// Intersector of one group.
 pub trait GroupIntersector: Intersector {
@@ -35,7 +36,9 @@ pub(crate) fn scene_intersector(
         let numbered = Numbered {
             first,
             count: count as u32,
-            bounds: intersector.box_to_meet(),
+            bounds: intersector
+                .box_to_meet()
+                .map(|b| [b.min, b.max].map(Vec3A::from)),
             intersector,
         };
         first += count as u32;
@@ -51,8 +54,8 @@ pub(crate) fn scene_intersector(
 struct Numbered {
     first: u32,
     count: u32,
-    /// See [`GroupIntersector::box_to_meet`].
-    bounds: Option<Aabb>,
+    /// The lower and upper bounds of [`GroupIntersector::box_to_meet`].
+    bounds: Option<[Vec3A; 2]>,
     intersector: Box<dyn GroupIntersector>,
 }
 
@@ -61,7 +64,7 @@ impl Numbered {
     #[inline]
     fn may_be_hit(&self, box_ray: Option<&BoxRay>, t_max: f32) -> bool {
         match (box_ray, &self.bounds) {
-            (Some(ray), Some(bounds)) => ray.meets(bounds, t_max),
+            (Some(ray), Some(bounds)) => ray.meets(*bounds, t_max),
             _ => true,
         }
     }
@@ -129,19 +132,16 @@ const LEAST_BATCH: usize = 8;
 
 /// The rays of a batch that meet a group's box, with primitives numbered as in the group.
 struct GroupRays {
-    /// The whole batch, for tests of boxes.
-    box_rays: Vec<Option<BoxRay>>,
     rays: Vec<Ray>,
     /// The index in the batch of each ray.
     indices: Vec<usize>,
 }
 
 impl GroupRays {
-    fn new(rays: &[Ray]) -> Self {
+    fn with_capacity(count: usize) -> Self {
         Self {
-            box_rays: rays.iter().map(box_ray).collect(),
-            rays: Vec::with_capacity(rays.len()),
-            indices: Vec::with_capacity(rays.len()),
+            rays: Vec::with_capacity(count),
+            indices: Vec::with_capacity(count),
         }
     }
 
@@ -149,9 +149,10 @@ impl GroupRays {
     fn select(&mut self, group: &Numbered, rays: &[Ray], t_max: impl Fn(usize) -> Option<f32>) {
         self.rays.clear();
         self.indices.clear();
-        for (i, (ray, box_ray)) in rays.iter().zip(&self.box_rays).enumerate() {
+        for (i, ray) in rays.iter().enumerate() {
+            // Preparing a ray for the test of a box takes less time than keeping it for the next group.
             if let Some(t_max) = t_max(i)
-                && group.may_be_hit(box_ray.as_ref(), t_max)
+                && group.may_be_hit(box_ray(ray).as_ref(), t_max)
             {
                 self.rays.push(group.ray(ray, t_max));
                 self.indices.push(i);
@@ -225,7 +226,8 @@ impl SceneIntersector {
     fn closest_hits_by_group(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
         hits.fill(None);
         let mut are_clear = vec![true; rays.len()];
-        let (mut subset, mut found) = (GroupRays::new(rays), vec![None; rays.len()]);
+        let (mut subset, mut found) =
+            (GroupRays::with_capacity(rays.len()), vec![None; rays.len()]);
         for group in &self.groups {
             subset.select(group, rays, |i| Some(self.t_max(&rays[i], hits[i])));
             let found = &mut found[..subset.rays.len()];
@@ -246,7 +248,10 @@ impl SceneIntersector {
     /// Which rays hit anything. Each group searches once, for the rays that meet its box and hit no earlier group.
     fn any_hits_by_group(&self, rays: &[Ray], are_hits: &mut [bool]) {
         are_hits.fill(false);
-        let (mut subset, mut found) = (GroupRays::new(rays), vec![false; rays.len()]);
+        let (mut subset, mut found) = (
+            GroupRays::with_capacity(rays.len()),
+            vec![false; rays.len()],
+        );
         for group in &self.groups {
             subset.select(group, rays, |i| (!are_hits[i]).then_some(rays[i].t_max));
             let found = &mut found[..subset.rays.len()];

@@ -15,6 +15,7 @@ pub(super) struct Nearest<S: Simd, T: Tester<S>, const MAYBE_COMPACT: bool> {
 
 impl<S: Simd, T: Tester<S>, const MAYBE_COMPACT: bool> Visitor<S> for Nearest<S, T, MAYBE_COMPACT> {
     const IS_BEHIND: bool = false;
+    const NOTES_NODES: bool = false;
 
     #[inline(always)]
     fn visit(&mut self, block: usize, slabs: &SlabRay<S>) -> ControlFlow<(), f32> {
@@ -42,6 +43,7 @@ pub(super) struct Any<T, const MAYBE_COMPACT: bool> {
 
 impl<S: Simd, T: Tester<S>, const MAYBE_COMPACT: bool> Visitor<S> for Any<T, MAYBE_COMPACT> {
     const IS_BEHIND: bool = false;
+    const NOTES_NODES: bool = false;
 
     #[inline(always)]
     fn visit(&mut self, block: usize, slabs: &SlabRay<S>) -> ControlFlow<(), f32> {
@@ -83,6 +85,7 @@ pub(super) struct Each<'b, S: Simd, T: Tester<S>> {
 
 impl<S: Simd, T: Tester<S>> Visitor<S> for Each<'_, S, T> {
     const IS_BEHIND: bool = true;
+    const NOTES_NODES: bool = true;
 
     fn visit(&mut self, block: usize, slabs: &SlabRay<S>) -> ControlFlow<(), f32> {
         self.cost.primitives += (self.count)(block) as u32;

@@ -70,7 +70,11 @@ impl AliasTable {
     }
 
     /// An index and its probability, for a uniform number in [0, 1).
+    #[inline]
     pub fn sample(&self, at: f32) -> Option<(usize, f32)> {
+        if let [single] = &self.slots[..] {
+            return Some((0, single.probability));
+        }
         let (index, probability, _) = self.sample_and_remap(at)?;
         Some((index, probability))
     }

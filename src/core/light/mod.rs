@@ -170,6 +170,9 @@ impl Lights {
             Light::Directional(light) => Some(light.sample()),
             Light::Point(light) => light.sample(from),
         };
+        if probability == 1.0 {
+            return sample;
+        }
         sample.map(|sample| LightSample {
             weight: sample.weight / probability,
             density: sample.density.map(|density| density * probability),
@@ -186,11 +189,6 @@ impl Lights {
             Light::Point(light) => light.sample(from),
             Light::Environment(_) | Light::Area(_) => None,
         })
-    }
-
-    /// The light that comes from infinitely far away, from a unit direction; `None` without an environment.
-    pub fn from_afar(&self, dir: Vec3) -> Option<Vec3> {
-        self.environment().map(|light| light.radiance(dir))
     }
 
     /// The density with which [`sample`](Self::sample) chooses the environment in a unit direction.

@@ -25,12 +25,18 @@ pub struct FlatPatch {
 
 impl FlatPatch {
     pub(super) fn new(span: &Span, outline: Outline) -> Self {
+        let [u, v] = [span.u, span.v].map(Vec3::as_dvec3);
+        Self::with_normal(span, u.cross(v), outline)
+    }
+
+    /// The same, given the cross product of the half axes.
+    #[inline]
+    pub(super) fn with_normal(span: &Span, across: DVec3, outline: Outline) -> Self {
         let Span { centre, u, v } = *span;
-        let axes = [u, v].map(Vec3::as_dvec3);
         Self {
             centre: centre.as_dvec3(),
-            axes,
-            normal: axes[0].cross(axes[1]).normalize_or(DVec3::Z),
+            axes: [u, v].map(Vec3::as_dvec3),
+            normal: across.normalize_or(DVec3::Z),
             reach: centre.abs() + u.abs() + v.abs(),
             outline,
         }

@@ -76,11 +76,8 @@ impl Span {
         let normal = u.cross(v);
         let across = normal.length_squared();
         let p = ray.at(hit.t) - centre;
-        let (a, b) = (
-            p.cross(v).dot(normal) / across,
-            u.cross(p).dot(normal) / across,
-        );
-        FlatPatch::new(self, Outline::Rectangle).surface_at(DVec2::new(a, b))
+        let uv = DVec2::new(p.cross(v).dot(normal), u.cross(p).dot(normal)) / across;
+        FlatPatch::with_normal(self, normal, Outline::Rectangle).surface_at(uv)
     }
 }
 

@@ -18,15 +18,16 @@ pub struct SurfacePoint {
 }
 
 impl SurfacePoint {
+    /// Whether a direction leads to the side that the normal points away from.
+    #[inline]
+    pub fn is_behind(&self, dir: Vec3) -> bool {
+        self.normal.dot(dir.as_dvec3()) < 0.0
+    }
+
     /// The normal on the side of a direction.
     #[inline]
     pub fn facing_normal(&self, dir: Vec3) -> Vec3 {
-        let side = self.normal.dot(dir.as_dvec3());
-        (if side < 0.0 {
-            -self.normal
-        } else {
-            self.normal
-        })
-        .as_vec3()
+        let normal = self.normal.as_vec3();
+        if self.is_behind(dir) { -normal } else { normal }
     }
 }

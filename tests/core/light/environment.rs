@@ -163,6 +163,7 @@ fn every_way_to_sample_an_environment_has_the_same_mean() {
         };
         let context = ball(&map, placement);
         let lights = &context.lighting.lights;
+        let environment = lights.environment().expect("an environment");
         let normal = Vec3::new(0.3, 0.8, -0.4).normalize();
         let cos = |dir: Vec3| f64::from(dir.dot(normal).max(0.0));
         let by_light = Estimate::of(path_count(), |sampler: &mut Sampler| {
@@ -178,7 +179,7 @@ fn every_way_to_sample_an_environment_has_the_same_mean() {
             let (sin_phi, cos_phi) = (at.y * std::f32::consts::TAU).sin_cos();
             let across = (1.0 - y * y).sqrt();
             let dir = Vec3::new(across * cos_phi, y, across * sin_phi);
-            let light = lights.from_afar(dir).expect("an environment");
+            let light = environment.radiance(dir);
             4.0 * cos(dir) * f64::from(light.y)
         });
         let direct = reflected(&context, "direct", path_count(), normal);
