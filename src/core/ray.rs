@@ -65,7 +65,7 @@ impl Ray {
     ///
     /// # Errors
     /// See [`RayError`].
-    #[inline]
+    #[inline(always)]
     pub fn with_interval(
         origin: Vec3,
         dir: Vec3,

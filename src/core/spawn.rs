@@ -63,7 +63,7 @@ impl RayStart {
     ///
     /// # Errors
     /// See [`RayError`].
-    #[inline]
+    #[inline(always)]
     pub fn towards(&self, dir: Vec3) -> Result<Ray, RayError> {
         let ray = Ray::with_interval(self.origin, dir, self.t_min, f32::INFINITY)?;
         Ok(Ray {
@@ -76,7 +76,7 @@ impl RayStart {
     ///
     /// # Errors
     /// See [`RayError`]; also if both ends are the same point.
-    #[inline]
+    #[inline(always)]
     pub fn connect(&self, end: Vec3) -> Result<Ray, RayError> {
         let t_max = 1.0 - END_SLACK;
         let t_min = self.t_min.min(0.5 * t_max);

@@ -135,8 +135,8 @@ impl BoxRay {
         // A NaN keeps the bound.
         let enter = Vec3A::select(enter.is_nan_mask(), Vec3A::NEG_INFINITY, enter);
         let leave = Vec3A::select(leave.is_nan_mask(), Vec3A::INFINITY, leave);
-        let near = enter.max_element().max(self.t_min);
-        near <= leave.min_element().min(end_slackened(t_max))
+        let near = enter.max(Vec3A::splat(self.t_min)).max_element();
+        near <= leave.min(Vec3A::splat(end_slackened(t_max))).min_element()
     }
 }
 

@@ -30,9 +30,10 @@ impl SampleSum {
             return true;
         }
         let radiance = radiance.max(Vec3::ZERO);
+        let Vec3 { x, y, z } = radiance;
         let is_whole = |x: f32| (WHOLE..ONE as f32).contains(&x) || x == 0.0;
-        let (rgb, luminance) = if radiance.to_array().into_iter().all(is_whole) {
-            (radiance.to_array().map(whole), luminance_f64(radiance))
+        let (rgb, luminance) = if is_whole(x) && is_whole(y) && is_whole(z) {
+            ([whole(x), whole(y), whole(z)], luminance_f64(radiance))
         } else {
             let rgb = radiance.to_array().map(|x| fixed(x.into()));
             // The luminance of the numbers that the mean is computed from.

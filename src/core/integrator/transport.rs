@@ -36,6 +36,7 @@ pub(super) struct ShadingPoint<'a> {
     /// The offset that the repair of the shadow terminator adds to the origins of rays that leave on the side that the
     /// ray comes from.
     offset: Vec3,
+    has_offset: bool,
     /// Whether the ray comes from behind the surface, by its normal in f64.
     arrives_behind: bool,
     /// The start of rays that leave on the side that the ray comes from, computed on first use; unused with an offset.
@@ -80,6 +81,7 @@ impl<'a> ShadingPoint<'a> {
         let tilt = appearance.tilt(interaction.shading_normal, is_front);
         let shading_normal = tilt.map_or(untilted, |tilt| tilt.applied_to(untilted, to_eye));
         let frame = Frame::about(shading_normal);
+        let offset = offset.map_or(Vec3::ZERO, |f| offset_by(f, context, &hit, is_front));
         let emission = appearance.emission_of_side(is_front);
         let opacity = appearance.opacity();
         Self {
@@ -94,8 +96,9 @@ impl<'a> ShadingPoint<'a> {
             normal: side * interaction.geometric_normal,
             bsdf,
             model,
-            is_tilted: untilted != shading_normal,
-            offset: offset.map_or(Vec3::ZERO, |f| offset_by(f, context, &hit, is_front)),
+            is_tilted: tilt.is_some(),
+            offset,
+            has_offset: offset != Vec3::ZERO,
             start: Cell::new(None),
             emission,
             opacity,
@@ -115,7 +118,7 @@ impl<'a> ShadingPoint<'a> {
     /// A departure by a policy.
     #[inline]
     fn departure(&self, policy: &SpawnPolicy, dir: Vec3) -> Departure<'_> {
-        let moves = self.offset != Vec3::ZERO && self.goes_back(dir);
+        let moves = self.has_offset && self.goes_back(dir);
         let corners = || self.context.scene.corners(self.hit.primitive);
         Departure {
             arrived_by: self.ray,
@@ -136,10 +139,10 @@ impl<'a> ShadingPoint<'a> {
 
     /// The start of a ray that leaves in a direction. It is kept for the side that the ray comes from, where the ray to
     /// a light and the ray that continues the path usually share it.
-    #[inline]
+    #[inline(always)]
     fn start(&self, dir: Vec3) -> RayStart {
         let policy = self.context.lighting.spawn;
-        if self.offset != Vec3::ZERO || self.surface.is_behind(dir) != self.arrives_behind {
+        if self.has_offset || self.surface.is_behind(dir) != self.arrives_behind {
             return policy.start(&self.departure(policy, dir));
         }
         self.start.get().unwrap_or_else(|| {
@@ -150,7 +153,7 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// The ray that leaves in a direction; `None` if numbers overflow.
-    #[inline]
+    #[inline(always)]
     pub fn spawn(&self, dir: Vec3) -> Option<Ray> {
         self.start(dir).towards(dir).ok()
     }
@@ -238,7 +241,7 @@ impl<'a> ShadingPoint<'a> {
             return false;
         }
         let is_reflected = local.z * self.outgoing.z > 0.0;
-        let starts_above = self.offset != Vec3::ZERO && is_reflected && self.goes_back(dir);
+        let starts_above = self.has_offset && is_reflected && self.goes_back(dir);
         starts_above || local.z * self.normal.dot(dir) > 0.0
     }
 
