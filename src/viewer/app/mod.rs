@@ -18,7 +18,7 @@
 //! | `comparing` | the comparison with another picture |
 //! | `request` | requests to the tracers |
 //! | `legend` | the legend in the picture, and its range |
-//! | `light` | lights, environment, exposure |
+//! | `light`, `scene_lights` | environment, exposure; the lights of a scene |
 //! | `reopening` | continuing in another window after the device was lost |
 //! | `files` | loading, reloading and saving |
 //! | `dialogs` | file dialogs |
@@ -60,6 +60,7 @@ mod pointer;
 mod prepare;
 mod reopening;
 mod request;
+mod scene_lights;
 mod sessions;
 mod side_panel;
 mod state;
@@ -227,10 +228,12 @@ impl eframe::App for App {
         self.poll_pictures(ctx);
         self.poll_rendering();
         self.poll_environment(ctx);
+        self.poll_lights();
         self.poll_watch(ctx);
         self.poll_faults();
         self.poll_picking(ctx);
         self.poll_document(ctx);
+        self.poll_flaw();
         self.poll_range_fit();
         self.poll_framing(ctx);
         self.refresh_pick(ctx);

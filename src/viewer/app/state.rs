@@ -28,6 +28,7 @@ impl App {
         self.open.loading.is_none()
             && self.open.session.is_none()
             && !self.is_loading_environment()
+            && !self.traced.lights.is_pending()
             && self.open.document.has_last_tree()
             && !self.seen.parts.is_stale()
             && self.open.document.shows(self.seen.parts.shown())

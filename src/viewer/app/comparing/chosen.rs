@@ -59,7 +59,7 @@ impl App {
     pub(in crate::app) fn compare_with_mesh(&mut self, path: PathBuf) {
         self.seen.comparison.mesh_file = Some(path);
         // Reloads a file that may have changed.
-        self.compared.mesh = None;
+        self.compared.drop_mesh();
         self.compare_with(Source::Mesh);
     }
 

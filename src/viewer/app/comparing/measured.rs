@@ -11,6 +11,7 @@ use glam::UVec2;
 use hitscope_core::colour::ColourScale;
 use hitscope_core::picture::PictureEncoding;
 use hitscope_core::srgb::from_texel;
+use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -123,11 +124,11 @@ impl App {
         let reference = self.compared.reference.picture();
         let (a, b) = match reference.filter(|_| self.compared.source == Source::Picture) {
             Some(picture) if picture.encoding == PictureEncoding::Linear => {
-                let pixel = |(index, &[r, g, b, _]): (u32, &[u8; 4])| {
-                    let at = UVec2::new(index % size.x, index / size.x);
+                let pixel = |(index, &[r, g, b, _]): (usize, &[u8; 4])| {
+                    let at = UVec2::new(index as u32 % size.x, index as u32 / size.x);
                     film.radiance(at).unwrap_or_else(|| from_texel([r, g, b]))
                 };
-                let linear = (0..).zip(film.pixels()).map(pixel);
+                let linear = film.pixels().par_iter().enumerate().map(pixel);
                 (
                     Pixels::Linear(linear.collect()),
                     Pixels::File(Arc::clone(picture)),

@@ -16,10 +16,11 @@ mod screen;
 mod sides;
 
 use super::App;
-use super::light::SceneLights;
+use super::scene_lights::SceneLights;
 use crate::comparison::{Rasterized, Reference, Source, TracedSide};
 use crate::document::Document;
 use crate::opening::Loading;
+use crate::retired::Retired;
 use crate::settings::Settings;
 use eframe::egui_wgpu::RenderState;
 use measured::Measured;
@@ -37,8 +38,10 @@ pub(crate) struct Compared {
     mesh: Option<Document>,
     /// The open file before it was last reloaded.
     earlier: Option<Document>,
+    /// Documents that were dropped.
+    retired: Retired,
     loading: Option<Loading>,
-    lights: Option<SceneLights>,
+    lights: SceneLights,
     traced: Option<TracedSide>,
     rasterized: Rasterized,
     reference: Reference,
@@ -53,8 +56,9 @@ impl Compared {
             sibling: None,
             mesh: None,
             earlier: None,
+            retired: Retired::default(),
             loading: None,
-            lights: None,
+            lights: SceneLights::default(),
             traced: None,
             rasterized: Rasterized::new(&render_state.device, &render_state.queue),
             reference: Reference::default(),
@@ -88,7 +92,11 @@ impl Compared {
         if let Some(loading) = self.loading.take() {
             loading.cancel();
         }
-        (self.sibling, self.mesh, self.lights) = (None, None, None);
+        self.drop_mesh();
+        if let Some(sibling) = self.sibling.take() {
+            self.retired.add(sibling);
+        }
+        self.lights = SceneLights::default();
         if let Some(mut side) = self.traced.take() {
             side.tracer.stop();
             // Dropping waits until the last rays are traced, so another thread does it, if one can be started.
@@ -108,11 +116,26 @@ impl Compared {
         !has_document && !has_picture && !has_reference && self.loading.is_none()
     }
 
-    /// Keeps the document that a reload replaced; drops it if another file was opened.
-    pub fn keep_earlier(&mut self, old: Document, is_same_file: bool) {
-        let is_version = is_same_file && old.path.is_some();
+    /// Keeps the document that a reload replaced. Returns the one that isn't needed any longer: the version before it; the
+    /// document itself, if another file was opened.
+    pub fn keep_earlier(&mut self, old: Document, is_same_file: bool) -> Option<Document> {
         old.stop_improving();
-        self.earlier = is_version.then_some(old);
+        let before = self.earlier.take();
+        if is_same_file && old.path.is_some() {
+            self.earlier = Some(old);
+            return before;
+        }
+        before
+            .into_iter()
+            .for_each(|before| self.retired.add(before));
+        Some(old)
+    }
+
+    /// Drops the document of another file.
+    fn drop_mesh(&mut self) {
+        if let Some(mesh) = self.mesh.take() {
+            self.retired.add(mesh);
+        }
     }
 
     /// Time since packing of side B for its kernel began; `None` if it isn't running.
@@ -154,6 +177,7 @@ impl App {
 
     /// Collects results of background work.
     pub(super) fn poll_comparison(&mut self, ctx: &egui::Context) {
+        self.compared.retired.poll(ctx);
         if !self.is_comparing() {
             if !self.compared.is_idle() {
                 self.compared.clear();

@@ -59,7 +59,12 @@ fn whole(size: UVec2) -> PixelRect {
 
 impl Compared {
     /// Uploads what has changed of side B. Returns whether anything has.
-    fn upload(&mut self, look: Look, display: Display) -> Result<bool, GpuError> {
+    fn upload(
+        &mut self,
+        look: Look,
+        display: Display,
+        ctx: &egui::Context,
+    ) -> Result<bool, GpuError> {
         let (screen, render_state) = (&mut self.screen, &self.render_state);
         let other = &mut screen.other;
         let picture = || Picture::new(render_state);
@@ -86,11 +91,13 @@ impl Compared {
                 Ok(is_new)
             }
             Source::Picture => {
-                let is_new = self.reference.develop(display);
+                // A panic has been printed to the terminal, and the old pixels stay.
+                let is_new = self.reference.develop(display, ctx).unwrap_or(false);
                 let size = self.reference.picture().map(|picture| picture.size);
-                if let (true, Some(size)) = (is_new, size) {
+                let pixels = size.zip(self.reference.pixels());
+                if let (true, Some((size, pixels))) = (is_new, pixels) {
                     let other = other.get_or_insert_with(picture);
-                    other.upload(size, self.reference.pixels(), whole(size))?;
+                    other.upload(size, pixels, whole(size))?;
                 }
                 Ok(is_new)
             }
@@ -112,7 +119,7 @@ impl Compared {
             }
             Source::Picture => {
                 let size = self.reference.picture()?.size;
-                Some((size, self.reference.pixels()))
+                Some((size, self.reference.pixels()?))
             }
         }
     }
@@ -191,7 +198,7 @@ impl App {
         } else {
             Display::default()
         };
-        match self.compared.upload(look, display) {
+        match self.compared.upload(look, display, ui.ctx()) {
             Ok(false) => {}
             Ok(true) => {
                 self.compared.screen.changes[1] += 1;
