@@ -227,6 +227,49 @@ fn rasterized_and_traced_triangles_hardly_differ() {
 }
 
 #[test]
+fn both_sides_can_be_rasterized() {
+    let Some((mut window, _folder)) = opened(SQUARE) else {
+        return;
+    };
+    compare(&mut window);
+    button(&mut window, "Rasterize side A");
+    let seen = |window: &Window| {
+        let figures = window.state().figures().expect("counted");
+        let different = figures.picture.pixels_over_tolerance;
+        let triangles = figures.visibility.expect("of triangles");
+        assert!(triangles.covered > 0);
+        (different, triangles.different)
+    };
+    // Side B is traced with several samples per pixel, so that its edges differ.
+    assert!(seen(&window).0 > 0);
+    choose(&mut window, "Source", Source::Rasterized.title());
+    assert_eq!(seen(&window), (0, 0));
+    let before = colour(&mut window, 0.45, 0.5);
+    choose(&mut window, "View of A", "Normal");
+    assert_ne!(colour(&mut window, 0.45, 0.5), before);
+    choose(&mut window, "View of B", "Triangle");
+    let (different, triangles) = seen(&window);
+    assert!(different > 0);
+    assert_eq!(triangles, 0, "the same triangles in other colours");
+    window.get_by_label("A: Normal, rasterized, flat");
+    // Swapped, both are still rasterized.
+    window.key_press_modifiers(Modifiers::SHIFT, Key::X);
+    settled(&mut window);
+    let comparison = window.state().comparison();
+    assert!(comparison.is_a_rasterized && comparison.source == Source::Rasterized);
+    assert_eq!(window.state().settings().view().name, "triangle");
+    button(&mut window, "Rasterize side A");
+    assert!(
+        window
+            .query_by_label_contains("A: Triangle, rasterized")
+            .is_none()
+    );
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    settled(&mut window);
+    assert!(window.state().comparison().is_a_rasterized);
+}
+
+#[test]
 fn shapes_that_are_not_rasterized_are_named() {
     let scene = r#"<scene version="3.0.0"><shape type="sphere"/></scene>"#;
     let folder = tempfile::tempdir().expect("a folder");

@@ -26,10 +26,11 @@ impl App {
         }
     }
 
-    /// Whether side A is shown at a position on the screen.
+    /// Whether the traced picture of side A is shown at a position on the screen.
     pub(in crate::app) fn shows_a_at(&self, pos: Pos2, canvas: Canvas) -> bool {
         match self.seen.comparison.mode {
             _ if !self.is_comparing() => true,
+            _ if self.rasterizes_a() => false,
             Mode::A => true,
             Mode::Wipe => pos.x < self.divider_x(canvas),
             Mode::B | Mode::Difference | Mode::Distance => false,

@@ -5,6 +5,7 @@
 //! | this file | [`Compared`], the owner of side B |
 //! | `sides` | the documents of side B; tracing and rasterizing them |
 //! | `screen` | drawing side B, the divider and the difference |
+//! | `rasterized_side` | a side A that is rasterized |
 //! | `measured` | figures of the differences, distances, the distance map |
 //! | `inspected` | inspection of side B |
 //! | `chosen` | the commands, and the tab *Compare* |
@@ -12,6 +13,7 @@
 mod chosen;
 mod inspected;
 mod measured;
+mod rasterized_side;
 mod screen;
 mod sides;
 
@@ -44,6 +46,8 @@ pub(crate) struct Compared {
     lights: SceneLights,
     traced: Option<TracedSide>,
     rasterized: Rasterized,
+    /// Side A, if it is rasterized.
+    rasterized_a: Rasterized,
     reference: Reference,
     screen: Screen,
     measured: Measured,
@@ -61,6 +65,7 @@ impl Compared {
             lights: SceneLights::default(),
             traced: None,
             rasterized: Rasterized::new(&render_state.device, &render_state.queue),
+            rasterized_a: Rasterized::new(&render_state.device, &render_state.queue),
             reference: Reference::default(),
             screen: Screen::default(),
             measured: Measured::default(),
@@ -85,6 +90,12 @@ impl Compared {
             Source::Earlier => self.earlier.as_mut(),
             Source::Picture => None,
         }
+    }
+
+    /// Drops the rasterized picture of side A.
+    fn clear_a(&mut self) {
+        self.rasterized_a = Rasterized::new(&self.render_state.device, &self.render_state.queue);
+        self.screen.clear_a();
     }
 
     /// Drops side B, except for an earlier version, which couldn't be loaded again.
@@ -113,7 +124,8 @@ impl Compared {
         let has_document = self.sibling.is_some() || self.mesh.is_some();
         let has_picture = self.traced.is_some() || self.screen.has_picture();
         let has_reference = self.reference.picture().is_some();
-        !has_document && !has_picture && !has_reference && self.loading.is_none()
+        let has_a = !self.rasterized_a.is_unused();
+        !has_document && !has_picture && !has_reference && !has_a && self.loading.is_none()
     }
 
     /// Keeps the document that a reload replaced. Returns the one that isn't needed any longer: the version before it; the
@@ -165,6 +177,11 @@ impl App {
         self.seen.comparison.is_on && !self.open.document.is_blank
     }
 
+    /// Whether side A is rasterized.
+    pub(crate) fn rasterizes_a(&self) -> bool {
+        self.is_comparing() && self.seen.comparison.is_a_rasterized
+    }
+
     /// The settings of side B; those of side A while nothing is compared.
     pub(super) fn other_settings(&self) -> Settings {
         let settings = &self.seen.settings;
@@ -181,6 +198,7 @@ impl App {
         if !self.is_comparing() {
             if !self.compared.is_idle() {
                 self.compared.clear();
+                self.compared.clear_a();
             }
             return;
         }

@@ -96,6 +96,7 @@ impl App {
         if !self.is_comparing() || self.seen.comparison.source != self.compared.source {
             return;
         }
+        self.request_rasterized_a(ctx);
         let settings = self.other_settings();
         let mut lights = std::mem::take(&mut self.compared.lights);
         let posted = self.traced.tracer.posted();
@@ -143,7 +144,15 @@ impl App {
             let panics = side.tracer.collect(ctx);
             messages.extend(panics.first().map(ToString::to_string));
         }
-        messages.extend(self.compared.rasterized.poll(ctx).err());
+        let rasterized = [
+            &mut self.compared.rasterized_a,
+            &mut self.compared.rasterized,
+        ];
+        messages.extend(
+            rasterized
+                .into_iter()
+                .filter_map(|side| side.poll(ctx).err()),
+        );
         let longest = self
             .compared
             .render_state
@@ -193,6 +202,7 @@ impl App {
         if compared.source != comparison.source
             || compared.loading.is_some()
             || compared.lights.is_pending()
+            || (self.rasterizes_a() && !self.is_rasterized_a_finished())
         {
             return false;
         }
