@@ -312,7 +312,7 @@ impl App {
     }
 
     fn start_face_lookup(&mut self, pick: &Pick, ctx: &egui::Context) {
-        let Some(document) = self.file_of_pick() else {
+        let Some(document) = self.file_of(self.inspected_side()) else {
             self.picked.face_lookup = None;
             return;
         };
@@ -353,7 +353,7 @@ impl App {
         self.picked.picking = None;
         match result {
             Ok(mut pick) => {
-                if let Some(document) = self.file_of_pick() {
+                if let Some(document) = self.file_of(self.inspected_side()) {
                     let lines = &document.loaded.report.face_lines;
                     pick.inspection.find_line(lines);
                 }

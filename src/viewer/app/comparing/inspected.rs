@@ -76,6 +76,14 @@ impl App {
         Some(point + document.origin() - self.open.document.origin())
     }
 
+    /// The document of a side, if it is traced.
+    pub(in crate::app) fn traced_document_of(&self, side: Side) -> Option<&Document> {
+        match side {
+            Side::A => Some(&self.open.document),
+            Side::B => self.traced_document_of_b(),
+        }
+    }
+
     /// The document of side B, if it is traced.
     fn traced_document_of_b(&self) -> Option<&Document> {
         let is_traced = self.is_comparing() && self.compared.source.is_traced();
@@ -114,9 +122,9 @@ impl App {
         of_b.unwrap_or(&self.open.document)
     }
 
-    /// The document whose file contains the inspected mesh; `None` if that file has changed.
-    pub(in crate::app) fn file_of_pick(&self) -> Option<&Document> {
-        match (self.inspected_side(), self.compared.source) {
+    /// The document whose file contains the mesh of a side; `None` if that file has changed.
+    pub(in crate::app) fn file_of(&self, side: Side) -> Option<&Document> {
+        match (side, self.compared.source) {
             (Side::B, Source::Earlier) => None,
             (Side::B, Source::Mesh) => Some(self.document_of(Side::B)),
             _ => Some(&self.open.document),
@@ -136,10 +144,10 @@ impl App {
         }
     }
 
-    /// Clears a pick on side B, whose scene has been replaced.
-    pub(super) fn forget_other_pick(&mut self) {
+    /// Inspects a pick on side B again, whose scene has been replaced.
+    pub(super) fn pick_again_on_b(&mut self, ctx: &egui::Context) {
         if self.picked.side == Side::B {
-            self.picked.clear_pick();
+            self.pick_again(DVec3::ZERO, ctx);
         }
     }
 }

@@ -185,7 +185,7 @@ impl App {
                 document.improve(ctx);
                 self.compared.drop_mesh();
                 self.compared.mesh = Some(document);
-                self.forget_other_pick();
+                self.pick_again_on_b(ctx);
             }
             Err(message) => {
                 self.seen.comparison.mesh_file = None;
