@@ -1,5 +1,6 @@
 //! A side B that is a picture in a file.
 
+use crate::retired::{Retired, Shared};
 use crate::task::{KeyedTask, Task, TaskPanicked, in_own_pool};
 use glam::{UVec2, Vec3};
 use hitscope_core::obj::LoadError;
@@ -25,6 +26,12 @@ pub struct Reference {
     development: KeyedTask<Display, Vec<[u8; 4]>>,
 }
 
+impl Shared for Reference {
+    fn is_shared(&self) -> bool {
+        self.picture().is_some_and(Shared::is_shared)
+    }
+}
+
 impl Reference {
     /// Starts to load a file, unless it is loaded or being loaded.
     pub fn want(&mut self, path: &Path, max_memory: u64, ctx: &egui::Context) {
@@ -47,11 +54,11 @@ impl Reference {
         (self.loading, self.is_stale) = (None, true);
     }
 
-    /// Collects a loaded picture. `longest` is the largest width and height allowed.
+    /// Collects a loaded picture, and retires the one before it. `longest` is the largest width and height allowed.
     ///
     /// # Errors
     /// Why there is no picture.
-    pub fn poll(&mut self, longest: u32) -> Result<(), String> {
+    pub fn poll(&mut self, longest: u32, retired: &mut Retired) -> Result<(), String> {
         let Some((path, task)) = &self.loading else {
             return Ok(());
         };
@@ -61,7 +68,7 @@ impl Reference {
             Ok(Some(result)) => result.map_err(|error| error.to_string()),
             Err(broken) => Err(format!("{}: {broken}", path.display())),
         };
-        *self = Self::default();
+        retired.add(std::mem::take(self));
         let picture = loaded?;
         let UVec2 { x, y } = picture.size;
         if x.max(y) > longest || u64::from(x) * u64::from(y) > MOST_PIXELS.into() {

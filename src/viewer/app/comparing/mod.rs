@@ -115,7 +115,7 @@ impl Compared {
             _ = end.spawn(move || drop(side));
         }
         self.rasterized = Rasterized::new(&self.render_state.device, &self.render_state.queue);
-        self.reference = Reference::default();
+        self.retired.add(std::mem::take(&mut self.reference));
         (self.screen, self.measured) = (Screen::default(), Measured::default());
     }
 

@@ -159,7 +159,8 @@ impl App {
             .device
             .limits()
             .max_texture_dimension_2d;
-        if let Err(message) = self.compared.reference.poll(longest) {
+        let compared = &mut self.compared;
+        if let Err(message) = compared.reference.poll(longest, &mut compared.retired) {
             self.seen.comparison.picture_file = None;
             messages.push(message);
         }
