@@ -35,7 +35,7 @@ impl Retired {
         /// Time between two checks while the window is idle.
         const PAUSE: Duration = Duration::from_millis(100);
         /// What is used for longer isn't kept for its user.
-        const PATIENCE: Duration = Duration::from_secs(5);
+        const PATIENCE: Duration = Duration::from_secs(2);
         self.freeing.retain(|task| matches!(task.poll(), Ok(None)));
         let unused = self.waiting.extract_if(.., |(data, since)| {
             !data.is_shared() || since.elapsed() > PATIENCE

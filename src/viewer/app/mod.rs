@@ -6,7 +6,7 @@
 //! | `state` | what others may read of the parts |
 //! | `prepare` | preparing the document for the settings |
 //! | `canvas`, `labels` | the picture with its overlay and marks; texts over it |
-//! | `pointer`, `pick` | clicks on the picture; the picked pixel |
+//! | `pointer`, `pick`, `copying` | clicks on the picture; the picked pixel; its inspection as text |
 //! | `navigation`, `gizmo` | drags, scrolling, flying and animated changes of the view; the axis gizmo |
 //! | `magnifier`, `pixel_values` | the magnified picture, and the values in its pixels |
 //! | `pictures`, `picture_dialog` | pictures of what is on the screen; pictures of any size |
@@ -34,6 +34,7 @@
 mod canvas;
 mod clipping;
 mod comparing;
+mod copying;
 mod dialogs;
 mod feedback;
 mod files;
@@ -232,6 +233,7 @@ impl eframe::App for App {
         self.poll_watch(ctx);
         self.poll_faults();
         self.poll_picking(ctx);
+        self.poll_copying(ctx);
         self.poll_document(ctx);
         self.poll_flaw();
         self.poll_range_fit();

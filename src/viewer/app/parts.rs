@@ -140,6 +140,8 @@ pub(crate) struct Picked {
     pub pick: Option<Pick>,
     /// The next pick, while it is being inspected.
     pub picking: Option<Picking>,
+    /// The text of the pick that will be copied.
+    pub copying: Option<Task<String>>,
     pub inspecting: Inspecting,
     pub path: PickedPath,
     /// The lookup of the pick's face in the file, while it runs.

@@ -81,7 +81,7 @@ impl App {
 
     /// The inspection of the picked pixel.
     pub fn inspection(&self) -> Option<&Inspection> {
-        self.picked.pick.as_ref().map(|pick| &pick.inspection)
+        self.picked.pick.as_ref().map(|pick| &*pick.inspection)
     }
 
     /// The path of a sample of the picked pixel, if the view follows paths.
