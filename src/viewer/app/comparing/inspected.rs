@@ -151,3 +151,40 @@ impl App {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::app::App;
+    use crate::harness::{app, click, in_picture, settle, wait, write};
+
+    /// A square at a depth.
+    fn square(z: f64) -> String {
+        format!("v -1 -1 {z}\nv 1 -1 {z}\nv 1 1 {z}\nv -1 1 {z}\nf 1 2 3 4\n")
+    }
+
+    fn hits_at(app: &App, z: f64) -> bool {
+        let hit = app.inspection().and_then(|found| found.hit.as_ref());
+        hit.is_some_and(|hit| (hit.position[2] - z).abs() < 1e-5)
+    }
+
+    #[test]
+    fn a_pick_on_side_b_stays_when_its_file_is_loaded_again() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let first = write(&folder, "first.obj", &square(0.0));
+        let second = write(&folder, "second.obj", &square(-0.25));
+        let Some(mut window) = app(Some(first)) else {
+            return;
+        };
+        settle(&mut window, "first.obj");
+        window.state_mut().compare_with_mesh(second.clone());
+        window.run_steps(3);
+        wait(&mut window, "both sides", App::is_settled);
+        window.run_steps(3);
+        let at = in_picture(&window, 0.55, 0.5);
+        click(&mut window, at);
+        wait(&mut window, "side B", |app| hits_at(app, -0.25));
+        write(&folder, "second.obj", &square(-0.5));
+        window.state_mut().compare_with_mesh(second);
+        wait(&mut window, "side B again", |app| hits_at(app, -0.5));
+    }
+}
