@@ -1,26 +1,29 @@
 //! The open document: a scene, its file, and the intersectors that trace it.
 
+mod packing;
 mod shown_part;
 mod sibling;
 
 pub use shown_part::ShownPrimitives;
 
+use crate::retired::{Retired, Shared};
 use crate::task::{Pending, Task, TaskPanicked};
 use glam::DVec3;
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::light::{Environment, EnvironmentMap, Light, MapPlacement, PlacedMap};
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::mesh::{Crease, Health, TriangleMesh, bytes_as};
-use hitscope_core::obj::{self, LoadError, LoadOptions, LoadReport};
+use hitscope_core::obj::{self, LoadError, LoadOptions};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::scene::SceneOptions;
-use hitscope_core::{Clip, Intersector, Scene};
+use hitscope_core::{Clip, Scene};
 use hitscope_lab::requirement::{Requirement, required_tier};
+use packing::Packing;
 use shown_part::{Packed, Showing};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, SystemTime};
+use std::time::SystemTime;
 
 pub(crate) const DEFAULT_OBJ: &str = include_str!("../../assets/default.obj");
 const DEFAULT_MTL: &[u8] = include_bytes!("../../assets/default.mtl");
@@ -62,68 +65,20 @@ pub struct Document {
     progress: Progress,
     /// The work on the best tree.
     improvement: Pending<Result<(), Cancelled>>,
-}
-
-/// A scene packed for a kernel, and for another one while that is under way.
-struct Packing {
-    /// The kernel that was chosen. A shape whose table lacks it uses another one.
-    kernel: KernelChoice,
-    packed: Packed,
-    /// The kernel that is wanted.
-    wanted: KernelChoice,
-    /// The scene packed for the wanted kernel.
-    next: Pending<Packed>,
-}
-
-impl Packing {
-    fn new(kernel: KernelChoice, packed: Packed) -> Self {
-        Self {
-            kernel,
-            packed,
-            wanted: kernel,
-            next: Pending::Unasked,
-        }
-    }
-
-    /// Starts to pack the scene for a kernel unless that is done or under way.
-    fn want(&mut self, kernel: KernelChoice, scene: &Arc<Scene>, ctx: &egui::Context) {
-        if self.wanted == kernel {
-            return;
-        }
-        self.wanted = kernel;
-        self.next = Pending::Unasked;
-        if self.kernel != kernel {
-            let scene = Arc::clone(scene);
-            let pack = move || Packed::of(&scene, kernel);
-            self.next = Pending::Running(Task::spawn("pack", ctx, pack));
-        }
-    }
-
-    /// Keeps the kernel that was packed last.
-    fn cancel(&mut self) {
-        (self.next, self.wanted) = (Pending::Unasked, self.kernel);
-    }
-
-    /// Switches to the wanted kernel once the scene is packed for it. If packing failed, the previous kernel stays.
-    fn poll(&mut self, scene: &Scene) -> Result<(), TaskPanicked> {
-        match self.next.take() {
-            Ok(None) => {}
-            Ok(Some(packed)) => {
-                // The clip may have changed meanwhile.
-                (self.packed, self.kernel) = (packed.with_clip_of(scene), self.wanted);
-            }
-            Err(panicked) => {
-                self.wanted = self.kernel;
-                return Err(panicked);
-            }
-        }
-        Ok(())
-    }
+    /// What was replaced.
+    retired: Retired,
 }
 
 impl Drop for Document {
     fn drop(&mut self) {
         self.stop_improving();
+    }
+}
+
+impl Shared for Document {
+    fn is_shared(&self) -> bool {
+        let scene = &self.loaded.scene;
+        Arc::strong_count(scene) > 1 || scene.shares_groups() || self.packing.packed.is_shared()
     }
 }
 
@@ -157,7 +112,7 @@ impl Document {
         let scene = Scene::new(mesh, &Progress::default()).expect("never cancelled");
         let loaded = LoadedScene {
             scene: Arc::new(scene),
-            report: LoadReport::default(),
+            report: Arc::default(),
             view: None,
             description: None,
             lights: Vec::new(),
@@ -186,6 +141,7 @@ impl Document {
             check: Pending::Unasked,
             progress: Progress::default(),
             improvement: Pending::Unasked,
+            retired: Retired::default(),
         }
     }
 
@@ -237,78 +193,15 @@ impl Document {
         let scene = &mut self.loaded.scene;
         let is_new = scene.crease() != crease;
         if is_new {
-            *scene = Arc::new(scene.with_crease(crease));
+            let new = Arc::new(scene.with_crease(crease));
+            self.retired.add(std::mem::replace(scene, new));
         }
         is_new
     }
 
-    /// The intersector of the kernel that was packed last, cut by the clip.
-    pub fn intersector(&self) -> &Arc<dyn Intersector> {
-        self.packing.packed.intersector()
-    }
-
-    /// The kernel that was chosen for the intersector.
-    pub fn kernel(&self) -> KernelChoice {
-        self.packing.kernel
-    }
-
-    /// Starts to pack the scene for a kernel unless that is done or under way.
-    pub fn use_kernel(&mut self, kernel: KernelChoice, ctx: &egui::Context) {
-        self.packing.want(kernel, &self.loaded.scene, ctx);
-    }
-
-    /// Switches to the kernel once the scene is packed for it.
-    ///
-    /// # Errors
-    /// [`TaskPanicked`], once, if packing failed; the previous kernel stays.
-    pub fn poll_kernel(&mut self) -> Result<(), TaskPanicked> {
-        self.packing.poll(&self.loaded.scene)
-    }
-
-    /// Time since packing for the wanted kernel began; `None` if it isn't running.
-    pub fn packing_elapsed(&self) -> Option<Duration> {
-        self.packing.next.elapsed()
-    }
-
-    /// Time since packing for the second kernel began; `None` if it isn't running.
-    pub fn second_packing_elapsed(&self) -> Option<Duration> {
-        self.second.as_ref()?.next.elapsed()
-    }
-
-    /// Keeps the kernel that was packed last. The packing thread ends later, and its result is dropped.
-    pub fn cancel_packing(&mut self) {
-        self.packing.cancel();
-    }
-
-    /// The intersector to compare with; the first one if there is no second, or until it is ready.
-    pub fn second(&self) -> &Arc<dyn Intersector> {
-        let second = self.second.as_ref().unwrap_or(&self.packing);
-        second.packed.intersector()
-    }
-
-    /// Starts to pack the scene for a second kernel unless that is done or under way; `None` drops the second
-    /// intersector.
-    pub fn use_second(&mut self, kernel: Option<KernelChoice>, ctx: &egui::Context) {
-        let Some(kernel) = kernel else {
-            self.second = None;
-            return;
-        };
-        let (first, packed) = (self.packing.kernel, &self.packing.packed);
-        let second = self
-            .second
-            .get_or_insert_with(|| Packing::new(first, packed.clone()));
-        second.want(kernel, &self.loaded.scene, ctx);
-    }
-
-    /// Switches to the second kernel once the scene is packed for it.
-    ///
-    /// # Errors
-    /// [`TaskPanicked`], once, if packing failed.
-    pub fn poll_second(&mut self) -> Result<(), TaskPanicked> {
-        let scene = &self.loaded.scene;
-        self.second
-            .as_mut()
-            .map_or(Ok(()), |second| second.poll(scene))
+    /// Frees what was replaced, in the background.
+    pub fn poll_retired(&mut self, ctx: &egui::Context) {
+        self.retired.poll(ctx);
     }
 
     /// The mesh's health and required tier. The first call starts the check; `None` until it is done.

@@ -17,7 +17,7 @@
 //! | [`clip_choice`], [`parts`], [`colour_choice`] | the part of the scene that is shown; the colours of the picture |
 //! | [`comparison`] | comparisons with another picture |
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
-//! | [`task`] | background tasks |
+//! | [`task`], [`retired`] | background tasks; large data that they free |
 //! | [`toasts`], [`log`], [`log_links`] | short messages about results; all messages, and the links in them |
 //! | [`overlay`], [`gpu`] | drawing the picture and the lines over it |
 //! | [`picks`], [`measuring`], [`go_to`] | the list of picks; measurements between them; going to an element |
@@ -66,6 +66,7 @@ pub mod preferences;
 pub mod quality;
 pub mod recent;
 pub mod render;
+pub mod retired;
 pub mod saving;
 pub mod screenshot;
 pub mod session;

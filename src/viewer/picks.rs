@@ -1,5 +1,6 @@
 //! The list of picked pixels, and what their rays hit.
 
+use crate::comparison::Side;
 use glam::{DVec3, UVec2};
 use hitscope_core::measure::{SnapReach, SnapTarget, snap};
 use hitscope_core::obj::LineRuns;
@@ -65,7 +66,9 @@ pub struct PickedPixel {
     pub name: String,
     /// Whether it stays when another pixel is picked.
     pub is_pinned: bool,
-    /// The camera of the picture.
+    /// The side of a comparison whose picture was clicked.
+    pub side: Side,
+    /// The camera of the picture, in the coordinates of the open scene.
     pub camera: Camera,
     /// The pixel.
     pub pixel: UVec2,
@@ -155,6 +158,7 @@ impl PickedPoint {
 struct Exported<'p> {
     number: u32,
     name: &'p str,
+    side: Side,
     pixel: [u32; 2],
     hit: Option<&'p PickedPoint>,
 }
@@ -171,6 +175,7 @@ pub fn to_json(file: &str, picks: &[(&PickedPixel, Option<&PickedPoint>)]) -> St
     let picks = picks.iter().map(|(pick, hit)| Exported {
         number: pick.number,
         name: &pick.name,
+        side: pick.side,
         pixel: pick.pixel.to_array(),
         hit: *hit,
     });
@@ -181,7 +186,7 @@ pub fn to_json(file: &str, picks: &[(&PickedPixel, Option<&PickedPoint>)]) -> St
 }
 
 /// The columns of [`to_csv`].
-const COLUMNS: &str = "file,number,name,pixel_x,pixel_y,kernel,shape,primitive,face,line,t,l1,l2,l3,\
+const COLUMNS: &str = "file,number,name,side,pixel_x,pixel_y,kernel,shape,primitive,face,line,t,l1,l2,l3,\
     hit_x,hit_y,hit_z,snapped_to,x,y,z,ng_x,ng_y,ng_z,ns_x,ns_y,ns_z";
 
 /// Picks of a file with their hits as a table: comma-separated values with a row of names. The cells of a miss are empty.
@@ -191,6 +196,7 @@ pub fn to_csv(file: &str, picks: &[(&PickedPixel, Option<&PickedPoint>)]) -> Str
     for (pick, hit) in picks {
         let (name, [x, y]) = (quoted(&pick.name), pick.pixel.to_array());
         let mut cells = vec![file.clone(), pick.number.to_string(), name];
+        cells.push(format!("{:?}", pick.side));
         cells.extend([x, y].map(|x| x.to_string()));
         match hit {
             Some(hit) => cells.extend(hit_cells(hit)),
@@ -261,6 +267,7 @@ mod tests {
             number: 7,
             name: "left, \"low\"".to_owned(),
             is_pinned: false,
+            side: Side::B,
             camera,
             pixel: pixel.as_uvec2(),
         };
@@ -287,6 +294,7 @@ mod tests {
         let value: serde_json::Value = serde_json::from_str(&text).expect("JSON");
         assert_eq!(value["file"], "a.obj");
         assert_eq!(value["picks"][0]["name"], pick.name);
+        assert_eq!(value["picks"][0]["side"], "B");
         assert_eq!(value["picks"][0]["hit"]["snapped_to"], "vertex");
         assert_eq!(value["picks"][0]["hit"]["geometric_normal"][2], 1.0);
         assert!(value["picks"][1]["hit"].is_null());
@@ -297,6 +305,6 @@ mod tests {
         // The name holds a comma.
         assert_eq!(lines[1].split(',').count(), cells + 1);
         assert_eq!(lines[2].split(',').count(), cells + 1);
-        assert!(lines[1].starts_with("a.obj,7,\"left, \"\"low\"\"\","));
+        assert!(lines[1].starts_with("a.obj,7,\"left, \"\"low\"\"\",B,"));
     }
 }

@@ -159,6 +159,34 @@ impl<K: PartialEq, T: Send + 'static> KeyedTask<K, T> {
         self.0 = None;
     }
 
+    /// Whether the task is running.
+    pub fn is_running(&self) -> bool {
+        self.0.is_some()
+    }
+
+    /// The result of the running task, once it is ready, with its key. Starts the task for `key` if none is running. Unlike
+    /// for [`get`](Self::get), a running task for another key goes on, so that there are results while a slider changes
+    /// the key in each frame.
+    ///
+    /// # Errors
+    /// [`TaskPanicked`] if the thread panicked; the next call starts again.
+    pub fn in_turn(
+        &mut self,
+        key: K,
+        start: impl FnOnce() -> Task<T>,
+    ) -> Result<Option<(K, T)>, TaskPanicked> {
+        let Some((running, task)) = self.0.take() else {
+            self.0 = Some((key, start()));
+            return Ok(None);
+        };
+        let result = task.poll()?;
+        if result.is_none() {
+            self.0 = Some((running, task));
+            return Ok(None);
+        }
+        Ok(result.map(|result| (running, result)))
+    }
+
     /// The result for `key`, once it is ready. Starts the task unless it is running; a task for
     /// another key is dropped.
     ///
@@ -309,5 +337,25 @@ mod tests {
         assert!(matches!(get(1), Err(TaskPanicked)));
         assert!(matches!(get(1), Ok(Some(10))));
         assert!(matches!(get(2), Ok(Some(20))));
+    }
+
+    #[test]
+    fn keyed_tasks_in_turn_end_before_the_next_one_begins() {
+        let ctx = egui::Context::default();
+        let mut keyed = KeyedTask::default();
+        let mut get =
+            |key: i32| keyed.in_turn(key, || Task::spawn("keyed", &ctx, move || 10 * key));
+        let hold = sabotage::hold("keyed");
+        for key in 1..4 {
+            assert!(matches!(get(key), Ok(None)));
+        }
+        drop(hold);
+        let first = loop {
+            if let Some(result) = get(4).expect("no panic") {
+                break result;
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        };
+        assert_eq!(first, (1, 10));
     }
 }

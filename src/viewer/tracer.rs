@@ -8,6 +8,7 @@
 mod limits;
 mod noise;
 mod pacing;
+mod pausing;
 mod request;
 mod speed;
 mod status;
@@ -32,9 +33,7 @@ use std::time::{Duration, Instant};
 
 /// Time limit for collecting tiles in one frame.
 const COLLECTING: Duration = Duration::from_millis(6);
-/// Refinement begins when nothing has changed for this long. Until then the CPU is free to draw the window, which
-/// takes most of its time without a GPU.
-const REST: Duration = Duration::from_millis(80);
+
 /// Traces the newest request.
 pub struct Tracer {
     renderer: Renderer,
@@ -136,27 +135,6 @@ impl Tracer {
         panics
     }
 
-    /// Starts refinement, or the view after its preview, once nothing has changed for a while.
-    fn end_hold(&mut self, ctx: &egui::Context) {
-        if !self.is_held {
-            return;
-        }
-        let since = self
-            .posted
-            .as_ref()
-            .map_or(REST, |posted| posted.at.elapsed());
-        let is_preview = self.posted.as_ref().is_some_and(|posted| posted.is_preview);
-        if since < REST {
-            ctx.request_repaint_after(REST - since);
-        } else if !is_preview {
-            self.is_held = false;
-            self.apply_pause();
-        } else if self.film.passes_done() > 0 {
-            self.is_held = false;
-            self.begin_view();
-        }
-    }
-
     /// Traces the view whose preview is shown, with the preview's block size. The preview stays until the view's first
     /// pass is done.
     fn begin_view(&mut self) {
@@ -179,18 +157,6 @@ impl Tracer {
         self.film.restart(plan, posted.request.context.background);
         self.changed_before = self.changed.take();
         self.post();
-    }
-
-    /// Ends refinement if a limit is reached.
-    fn check_limits(&mut self) {
-        if let (None, Some(posted)) = (self.stopped, &self.posted)
-            && posted.is_lit()
-        {
-            let secs = posted.busy_secs / self.renderer.thread_count() as f64;
-            let (samples, noise) = (self.film.samples(), self.noise.total());
-            self.stopped = self.limits.reached(secs, samples, noise);
-            self.apply_pause();
-        }
     }
 
     fn add(&mut self, tile: &TileResult) {
@@ -347,15 +313,6 @@ impl Tracer {
         !is_preview && (self.film.is_complete() || self.stopped.is_some())
     }
 
-    /// Sets the conditions that end refinement.
-    pub fn set_limits(&mut self, limits: Limits) {
-        if self.limits != limits {
-            (self.limits, self.stopped) = (limits, None);
-            self.check_limits();
-            self.apply_pause();
-        }
-    }
-
     /// The request that is being traced.
     pub fn posted(&self) -> Option<&Request> {
         self.posted.as_ref().map(|posted| &posted.request)
@@ -380,25 +337,6 @@ impl Tracer {
     /// Cancels the work on the current picture.
     pub fn stop(&mut self) {
         self.renderer.cancel();
-    }
-
-    /// Whether the user has paused refinement.
-    pub fn is_paused(&self) -> bool {
-        self.is_paused
-    }
-
-    /// Pauses or resumes refinement.
-    pub fn toggle_pause(&mut self) {
-        self.is_paused = !self.is_paused;
-        self.apply_pause();
-    }
-
-    fn apply_pause(&mut self) {
-        if self.is_paused || self.is_held || self.stopped.is_some() {
-            self.renderer.pause();
-        } else {
-            self.renderer.resume();
-        }
     }
 }
 

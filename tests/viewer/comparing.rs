@@ -13,12 +13,12 @@ use std::path::Path;
 use tempfile::TempDir;
 
 /// A square that covers the middle of the first picture.
-const SQUARE: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
+pub const SQUARE: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
 /// The same square, moved 0.25 back.
 const FARTHER: &str = "v -1 -1 -0.25\nv 1 -1 -0.25\nv 1 1 -0.25\nv -1 1 -0.25\nf 1 2 3 4\n";
 
 /// The window with a mesh, once its picture is complete; `None` if the test is skipped.
-fn opened(text: &str) -> Option<(Window, TempDir)> {
+pub fn opened(text: &str) -> Option<(Window, TempDir)> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = write(&folder, "mesh.obj", text);
     let mut window = app(Some(path))?;
@@ -27,7 +27,7 @@ fn opened(text: &str) -> Option<(Window, TempDir)> {
 }
 
 /// Draws frames until both sides and their figures are there.
-fn settled(window: &mut Window) {
+pub fn settled(window: &mut Window) {
     window.run_steps(4);
     wait(window, "both sides", App::is_settled);
     window.run_steps(4);
@@ -35,19 +35,19 @@ fn settled(window: &mut Window) {
 }
 
 /// Starts a comparison, which opens its tab.
-fn compare(window: &mut Window) {
+pub fn compare(window: &mut Window) {
     press(window, Key::C);
     settled(window);
     assert!(window.state().is_comparing());
 }
 
-fn button(window: &mut Window, label: &str) {
+pub fn button(window: &mut Window, label: &str) {
     window.get_by_label(label).click();
     settled(window);
 }
 
 /// Chooses an entry of the combo box of this name.
-fn choose(window: &mut Window, combo: &str, entry: &str) {
+pub fn choose(window: &mut Window, combo: &str, entry: &str) {
     window.get_by_role_and_label(Role::ComboBox, combo).click();
     window.run_steps(4);
     let entries = window.get_all_by_label(entry);
@@ -77,7 +77,7 @@ fn enter_path(window: &mut Window, button: &str, path: &Path) -> Option<()> {
 }
 
 /// The colour on the screen at a point of the picture.
-fn colour(window: &mut Window, x: f32, y: f32) -> [u8; 3] {
+pub fn colour(window: &mut Window, x: f32, y: f32) -> [u8; 3] {
     let at = in_picture(window, x, y);
     let shown = window.render().expect("an image");
     let [r, g, b, _] = shown.get_pixel(at.x as u32, at.y as u32).0;
@@ -181,63 +181,6 @@ fn the_pixels_in_which_kernels_or_views_differ_are_counted_and_shown() {
     assert!(found.psnr_db.is_some());
     window.get_by_label("PSNR");
     assert_ne!(colour(&mut window, 0.5, 0.5), [0; 3]);
-}
-
-#[test]
-fn a_click_on_side_b_inspects_with_its_kernel() {
-    let Some((mut window, _folder)) = opened(SQUARE) else {
-        return;
-    };
-    compare(&mut window);
-    choose(
-        &mut window,
-        "Kernel of B",
-        "watertight – Watertight (Woop et al.)",
-    );
-    for (x, kernel) in [(0.55, "watertight"), (0.45, "exact")] {
-        let at = in_picture(&window, x, 0.5);
-        click(&mut window, at);
-        wait(&mut window, kernel, |app| {
-            app.inspection().is_some_and(|found| found.kernel == kernel)
-        });
-    }
-}
-
-#[test]
-fn rasterized_and_traced_triangles_hardly_differ() {
-    let Some(mut window) = app(None) else { return };
-    wait(&mut window, "all samples", App::is_settled);
-    compare(&mut window);
-    choose(&mut window, "Source", Source::Rasterized.title());
-    for view in ["Shaded", "Normal", "Depth", "Triangle"] {
-        choose(&mut window, "View of B", view);
-        let figures = window.state().figures().expect("counted");
-        let seen = figures.visibility.expect("of triangles");
-        let all = window.state().film().size().element_product() as usize;
-        assert!(seen.covered > all / 10, "{view}: {seen:?}");
-        // As in the comparison of triangle numbers: only centres on edges differ.
-        assert!(seen.different * 1000 <= seen.covered, "{view}: {seen:?}");
-    }
-    // The same view on both sides differs at edges only, which rays sample more than once.
-    choose(&mut window, "View of B", "same as A");
-    let figures = window.state().figures().expect("counted").picture.clone();
-    assert!(figures.percent_over_tolerance > 0.0, "{figures:?}");
-    let psnr = figures.psnr_db.expect("a difference");
-    assert!(psnr > 20.0, "{figures:?}");
-}
-
-#[test]
-fn shapes_that_are_not_rasterized_are_named() {
-    let scene = r#"<scene version="3.0.0"><shape type="sphere"/></scene>"#;
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = write(&folder, "scene.xml", scene);
-    let Some(mut window) = app(Some(path)) else {
-        return;
-    };
-    settle(&mut window, "scene.xml");
-    compare(&mut window);
-    choose(&mut window, "Source", Source::Rasterized.title());
-    window.get_by_label("Not rasterized, because they aren't triangles: 1 sphere");
 }
 
 #[test]

@@ -6,6 +6,8 @@ mod app;
 mod alone;
 // Names of all controls for assistive technology.
 mod accessibility;
+// The sides of a comparison: clicks, picks, rasterized sides.
+mod compared_sides;
 // Comparisons with another view, kernel, mesh or picture.
 mod comparing;
 // The program's exit statuses and its behaviour without a display.

@@ -40,13 +40,15 @@ fn flaws_are_marked_and_listed_and_a_bad_face_gives_a_warning() {
     });
     window.run_steps(3);
     window.get_by_label("Open edges  4").click();
-    window.run_steps(3);
-    let shown = |window: &Window| {
-        let place = window.state().flaw().expect("a flaw");
-        assert_eq!(place.flaw, Flaw::OpenEdge);
-        place.index
+    let require_shown = |window: &mut Window, index: usize| {
+        window.run_steps(3);
+        wait(window, "the flaw", |app| {
+            let place = app.flaw();
+            place.is_some_and(|place| (place.flaw, place.index) == (Flaw::OpenEdge, index))
+        });
+        window.run_steps(2);
     };
-    assert_eq!(shown(&window), 0);
+    require_shown(&mut window, 0);
     // Each edge is a side of the square and of a face on one of two lines.
     let point = window.state().flaw().expect("a flaw").point.truncate();
     assert_eq!((point - 0.5).abs().max_element(), 0.5);
@@ -55,8 +57,7 @@ fn flaws_are_marked_and_listed_and_a_bad_face_gives_a_warning() {
     assert!(has_line(5) || has_line(6));
     for (button, index) in [("Next", 1), ("Previous", 0), ("Previous", 3)] {
         window.get_by_label(button).click();
-        window.run_steps(3);
-        assert_eq!(shown(&window), index, "{button}");
+        require_shown(&mut window, index);
     }
     window.get_by_label("Open edges  4").click();
     window.run_steps(3);

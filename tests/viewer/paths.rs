@@ -75,7 +75,7 @@ fn a_view_that_follows_no_paths_shows_none() {
 /// The text that the button *Copy as JSON* copies.
 fn copied(window: &mut Window) -> serde_json::Value {
     window.get_by_label("Copy as JSON").click_accesskit();
-    for _ in 0..5 {
+    for _ in 0..1000 {
         window.step();
         let commands = &window.output().platform_output.commands;
         let text = commands.iter().find_map(|command| match command {
@@ -85,6 +85,7 @@ fn copied(window: &mut Window) -> serde_json::Value {
         if let Some(text) = text {
             return parsed(&text);
         }
+        std::thread::sleep(std::time::Duration::from_millis(5));
     }
     panic!("nothing was copied");
 }

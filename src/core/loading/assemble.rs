@@ -72,7 +72,7 @@ pub(super) fn load(
     Ok(LoadedScene {
         scene: Arc::new(scene),
         lights,
-        report,
+        report: Arc::new(report),
         view: file.sensors.first().map(StartView::new),
         description: Some(Arc::new(file)),
     })

@@ -44,7 +44,7 @@ pub struct LoadedScene {
     /// The scene.
     pub scene: Arc<Scene>,
     /// The load report of the file.
-    pub report: LoadReport,
+    pub report: Arc<LoadReport>,
     /// The view that the file asks for, if it has one.
     pub view: Option<StartView>,
     /// The contents of the file if it is a scene file.
@@ -104,7 +104,7 @@ impl LoadedScene {
         let scene = Arc::new(scene);
         Ok(Self {
             scene,
-            report,
+            report: Arc::new(report),
             view: None,
             description: None,
             lights: Vec::new(),
@@ -175,7 +175,8 @@ mod tests {
             let bytes = text.as_bytes();
             let loaded = obj::parse(bytes, path, LoadOptions::default(), &library, &progress);
             let loaded = LoadedScene::of(loaded.expect("good"), SceneOptions::default(), &progress);
-            let warnings = loaded.expect("never cancelled").report.warnings;
+            let loaded = loaded.expect("never cancelled");
+            let warnings = &loaded.report.warnings;
             assert_eq!(
                 warnings.len(),
                 usize::from(is_warned),

@@ -152,6 +152,12 @@ impl Scene {
         &self.groups
     }
 
+    /// Whether another scene, such as one with another clip, has the same groups.
+    pub fn shares_groups(&self) -> bool {
+        let is_shared = |group: &Arc<dyn Group>| Arc::strong_count(group) > 1;
+        self.groups.iter().any(is_shared)
+    }
+
     /// The shapes of the groups with their kernels, each shape once.
     pub fn kernels(&self) -> Vec<ShapeKernels> {
         let mut shapes: Vec<ShapeKernels> = Vec::new();
@@ -327,6 +333,11 @@ impl Scene {
     pub fn vertex_normals(&self) -> &VertexNormals {
         self.vertex_normals
             .get_or_init(|| VertexNormals::of(&self.mesh, self.crease))
+    }
+
+    /// Whether the vertex normals are computed, so that [`vertex_normals`](Self::vertex_normals) takes no time.
+    pub fn has_vertex_normals(&self) -> bool {
+        self.vertex_normals.get().is_some()
     }
 
     /// Packs the scene for a kernel.

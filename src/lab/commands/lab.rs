@@ -307,7 +307,6 @@ fn print_cases(about: &RunInfo, all: &Measurements, out: &mut dyn Write) -> io::
 
 fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
     let (n, hits) = rows.first().map_or((0, 0), |row| (row.n, row.hits));
-    let has_several_shapes = measure::scene::has_several_shapes(rows);
     writeln!(out, "{}", machine())?;
     writeln!(
         out,
@@ -315,7 +314,7 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
         grouped(n as usize),
         grouped(hits as usize)
     )?;
-    if has_several_shapes {
+    if measure::scene::has_several_shapes(rows) {
         writeln!(out, "{}", measure::scene::OF_WHOLE_SCENE)?;
     }
     let width = rows
@@ -338,22 +337,12 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
         "t p99",
         "t max"
     )?;
-    if has_several_shapes {
-        writeln!(out, "every shape")?;
-        let first = rows.iter().filter(|row| row.shape == rows[0].shape);
-        for (row, tier) in first.filter_map(|row| Some((row, row.tier?))) {
-            print_row(tier, row, width, out)?;
+    let mut heading = "";
+    for line in report::scene_lines(rows) {
+        if line.heading != std::mem::replace(&mut heading, line.heading) {
+            writeln!(out, "{heading}")?;
         }
-    }
-    let mut shape = "";
-    for row in rows {
-        if has_several_shapes && row.tier.is_some() {
-            continue;
-        }
-        if row.shape != std::mem::replace(&mut shape, row.shape) {
-            writeln!(out, "{}", row.shape)?;
-        }
-        print_row(row.kernel, row, width, out)?;
+        print_row(line.name, line.row, width, out)?;
     }
     Ok(())
 }

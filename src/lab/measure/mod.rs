@@ -38,7 +38,6 @@ pub mod workloads;
 use boxes::{BOX_CASES, BoxCell};
 use contestants::{Contestant, contestants};
 use hitscope_core::counts::counted;
-use hitscope_core::group::all_kernels;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::mesh::shapes::{Placement, sphere};
 use hitscope_core::progress::{Cancelled, Progress};
@@ -218,8 +217,7 @@ pub fn expected(
     // Three workloads, each traced by the kernel and by `fast`.
     let traced = |rays: usize, kernels: usize| (rays * 3 * 2 * sizes.speed_rounds * kernels) as f64;
     let triangles = traced(sizes.speed_rays, TRIANGLE_KERNELS.len());
-    let kernels = all_kernels().iter().map(|shape| shape.kernels.len()).sum();
-    let shapes = traced(sizes.shape_speed_rays(), kernels);
+    let shapes = traced(sizes.shape_speed_rays(), shape_speed::kernel_count());
     Duration::from_secs_f64(parallel / threads as f64 + 1.0e-6 * triangles + 2.0e-6 * shapes)
 }
 

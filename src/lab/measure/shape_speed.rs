@@ -9,6 +9,7 @@ use super::speed::{Bench, Speed, default_camera};
 use super::workloads::workloads;
 use glam::Vec3;
 use hitscope_core::Scene;
+use hitscope_core::group::all_kernels;
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::random::Random;
@@ -71,6 +72,16 @@ pub fn measure(
     Ok(all)
 }
 
+/// The number of kernels that [`measure`] measures: those of general planes and boxes twice.
+pub(super) fn kernel_count() -> usize {
+    let all = all_kernels();
+    let others = all.iter().filter(|of| of.shape != Triangle::INFO);
+    let again = all
+        .iter()
+        .filter(|of| [Plane::INFO, Cuboid::INFO].contains(&of.shape));
+    others.chain(again).map(|of| of.kernels.len()).sum()
+}
+
 /// Measures the kernels of a scene's shape with the rays of a bench.
 fn measure_kernels(
     bench: &Bench,
@@ -120,5 +131,22 @@ fn general_box(aligned: AxisBox) -> Cuboid {
     Cuboid {
         centre: aligned.min + half,
         axes: [Vec3::X * half.x, Vec3::Y * half.y, Vec3::Z * half.z],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_kernels_are_counted_as_they_are_measured() {
+        let sizes = ShapeSpeedSizes {
+            primitives: 8,
+            rays: 10,
+            rounds: 1,
+        };
+        let measured = measure(sizes, 1, &Progress::default()).expect("never cancelled");
+        assert!(measured.iter().any(|row| row.is_aligned));
+        assert_eq!(measured.len(), kernel_count());
     }
 }

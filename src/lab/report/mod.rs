@@ -5,7 +5,7 @@ mod scene;
 mod shapes;
 mod text;
 
-pub use scene::scene_for_page;
+pub use scene::{SceneLine, scene_for_page, scene_lines};
 pub use shapes::{is_in_shape_table, shape_table, summary_table};
 pub use text::{accuracy_table, is_in_accuracy_table, print};
 

@@ -124,7 +124,9 @@ impl App {
         let is_same_file = self.open.document.path == document.path;
         let shift = self.open.document.origin() - document.origin();
         let old = std::mem::replace(&mut self.open.document, document);
-        self.compared.keep_earlier(old, is_same_file);
+        if let Some(closed) = self.compared.keep_earlier(old, is_same_file) {
+            self.open.retired.add(closed);
+        }
         if let Some(path) = &self.open.document.path {
             self.preferences.recent.add(path);
         }
@@ -138,7 +140,8 @@ impl App {
         } else {
             self.history.clear();
         }
-        (self.picked.face_lookup, self.picked.flaw) = (None, None);
+        self.picked.face_lookup = None;
+        self.picked.forget_flaw();
         self.open.trade = None;
         if is_same_file {
             self.seen

@@ -3,13 +3,17 @@
 use super::App;
 use super::pick::Pick;
 use crate::clip_choice::{ClipChoice, ClipShape};
-use crate::parts::{Grouping, Parts, PartsChoice};
+use crate::parts::{Grouping, PartChange, Parts, PartsChoice};
 
 impl App {
-    /// Shows only the chosen parts, as soon as a tree over them is built. Returns whether that begins now.
+    /// Shows only the chosen parts, as soon as they are found and a tree over them is built. Returns whether building
+    /// begins now.
     pub(super) fn use_parts(&mut self, ctx: &egui::Context) -> bool {
         let parts = &mut self.seen.parts;
-        parts.refresh(&self.open.document.loaded.scene);
+        if let Err(panicked) = parts.update(&self.open.document.loaded.scene, ctx) {
+            self.error(panicked);
+            return false;
+        }
         let begins = self.open.document.use_primitives(parts.shown(), ctx);
         if self.open.document.shows(parts.shown()) {
             parts.note_applied();
@@ -55,30 +59,24 @@ impl App {
 
     /// Shows the tab *Parts*.
     pub(super) fn parts_ui(&mut self, ui: &mut egui::Ui, commands: &crate::command::Commands) {
-        let list = self.seen.parts.list(&self.open.document.loaded.scene);
         let picked = self.picked.pick.as_ref().and_then(Pick::marked_primitive);
-        let picked = picked.map(|primitive| list.part_of(primitive));
-        crate::panels::parts::parts_ui(ui, &mut self.seen.parts, &list, picked, commands);
+        crate::panels::parts::parts_ui(ui, &mut self.seen.parts, picked, commands);
     }
 
-    fn picked_part(&mut self) -> Option<usize> {
-        let picked = self.picked.pick.as_ref().and_then(Pick::marked_primitive)?;
-        let list = self.seen.parts.list(&self.open.document.loaded.scene);
-        Some(list.part_of(picked))
+    fn change_picked_part(&mut self, change: PartChange) {
+        if let Some(picked) = self.picked.pick.as_ref().and_then(Pick::marked_primitive) {
+            self.seen.parts.change_part_of(picked, change);
+        }
     }
 
     /// Hides the part of the picked primitive.
     pub(crate) fn hide_picked_part(&mut self) {
-        if let Some(part) = self.picked_part() {
-            self.seen.parts.show(part, false);
-        }
+        self.change_picked_part(PartChange::Hide);
     }
 
     /// Shows the part of the picked primitive alone.
     pub(crate) fn show_only_picked_part(&mut self) {
-        if let Some(part) = self.picked_part() {
-            self.seen.parts.show_only(part);
-        }
+        self.change_picked_part(PartChange::ShowOnly);
     }
 
     /// Shows all parts.

@@ -29,7 +29,7 @@ pub(crate) struct RangeFit(Option<(String, Task<Option<[f64; 2]>>)>);
 impl App {
     /// The scale of the picture; `None` if it shows no numbers.
     pub(crate) fn colour_scale(&self) -> Option<Result<ColourScale, ScaleError>> {
-        if matches!(self.look(), Look::Noise(_)) {
+        if matches!(self.look(), Look::Noise(_)) && !self.rasterizes_a() {
             return Some(Ok(noise_scale()));
         }
         let posted = self.traced.tracer.posted()?;

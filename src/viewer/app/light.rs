@@ -1,31 +1,21 @@
 //! Light in the picture: the lights of a scene, the environment, and how the film is shown.
 
 use super::App;
+use super::scene_lights::SceneLights;
 use crate::look::Look;
 use crate::settings::{EnvironmentSource, Settings};
 use crate::task::{Task, TaskPanicked};
 use crate::tracer::Limits;
 use glam::{Mat3, Vec3};
-use hitscope_core::Scene;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::integrator::Lighting;
-use hitscope_core::light::{
-    Environment, EnvironmentMap, Light, Lights, LoadedMap, MapPlacement, PlacedMap,
-};
+use hitscope_core::light::{Environment, EnvironmentMap, LoadedMap, MapPlacement, PlacedMap};
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::obj::LoadError;
 use hitscope_core::progress::Progress;
 use hitscope_core::srgb::from_texel;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-
-/// The lights of a scene, and what they were made from.
-pub(crate) struct SceneLights {
-    scene: Arc<Scene>,
-    /// `None` for that of the scene's file.
-    environment: Option<Environment>,
-    lights: Arc<Lights>,
-}
 
 /// The picture of an environment in a file.
 #[derive(Default)]
@@ -54,46 +44,29 @@ pub(super) fn is_environment(path: &Path) -> bool {
 }
 
 impl App {
-    /// The lights of a scene and the options of light transport. `kept` are the lights that the last call returned.
+    /// The lights of a scene and the options of light transport; `None` while the view needs lights that are being made.
     pub(super) fn lighting(
         &self,
         settings: &Settings,
         loaded: &LoadedScene,
-        kept: Option<SceneLights>,
-    ) -> (Lighting, Option<SceneLights>) {
+        lights: &mut SceneLights,
+        ctx: &egui::Context,
+    ) -> Option<Lighting> {
         if !settings.view().needs.lights {
-            return (Lighting::default(), kept);
+            lights.forget_others(&loaded.scene);
+            return Some(Lighting::default());
         }
-        let (scene, environment) = (&loaded.scene, self.environment());
-        let is_current = |lights: &SceneLights| {
-            Arc::ptr_eq(&lights.scene, scene) && lights.environment == environment
-        };
-        let lights = kept.filter(is_current).unwrap_or_else(|| {
-            let mut others = loaded.lights.clone();
-            let lights = match environment.clone() {
-                None => Lights::or_white(scene, others),
-                Some(environment) => {
-                    others.push(Light::Environment(environment));
-                    Lights::new(scene, others)
-                }
-            };
-            SceneLights {
-                scene: Arc::clone(scene),
-                environment,
-                lights: Arc::new(lights),
-            }
-        });
+        let lights = lights.get(loaded, self.environment(), ctx)?;
         let default = loaded.lighting();
-        let lighting = Lighting {
-            lights: Arc::clone(&lights.lights),
+        Some(Lighting {
+            lights,
             spawn: settings.spawn(),
             second_spawn: settings.second_spawn(),
             ao_distance: settings.ao_distance,
             depth_limit: settings.depth_limit().or(default.depth_limit),
             terminator: settings.terminator(),
             ..default
-        };
-        (lighting, Some(lights))
+        })
     }
 
     /// The environment that replaces that of the scene's file; `None` also while it is being loaded.
@@ -129,6 +102,13 @@ impl App {
         self.seen.settings.environment = EnvironmentSource::File;
         // Also loads a file again that has changed.
         self.traced.environment_file = EnvironmentFile::None;
+    }
+
+    /// Collects the lights of the scene once they are made.
+    pub(super) fn poll_lights(&mut self) {
+        if let Err(panicked) = self.traced.lights.poll() {
+            self.error(panicked);
+        }
     }
 
     /// Loads the file of the environment if it is wanted, and limits its brightness to the film's range.

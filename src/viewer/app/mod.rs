@@ -6,7 +6,7 @@
 //! | `state` | what others may read of the parts |
 //! | `prepare` | preparing the document for the settings |
 //! | `canvas`, `labels` | the picture with its overlay and marks; texts over it |
-//! | `pointer`, `pick` | clicks on the picture; the picked pixel |
+//! | `pointer`, `pick`, `copying` | clicks on the picture; the picked pixel; its inspection as text |
 //! | `navigation`, `gizmo` | drags, scrolling, flying and animated changes of the view; the axis gizmo |
 //! | `magnifier`, `pixel_values` | the magnified picture, and the values in its pixels |
 //! | `pictures`, `picture_dialog` | pictures of what is on the screen; pictures of any size |
@@ -18,7 +18,7 @@
 //! | `comparing` | the comparison with another picture |
 //! | `request` | requests to the tracers |
 //! | `legend` | the legend in the picture, and its range |
-//! | `light` | lights, environment, exposure |
+//! | `light`, `scene_lights` | environment, exposure; the lights of a scene |
 //! | `reopening` | continuing in another window after the device was lost |
 //! | `files` | loading, reloading and saving |
 //! | `dialogs` | file dialogs |
@@ -34,6 +34,7 @@
 mod canvas;
 mod clipping;
 mod comparing;
+mod copying;
 mod dialogs;
 mod feedback;
 mod files;
@@ -60,6 +61,7 @@ mod pointer;
 mod prepare;
 mod reopening;
 mod request;
+mod scene_lights;
 mod sessions;
 mod side_panel;
 mod state;
@@ -227,10 +229,13 @@ impl eframe::App for App {
         self.poll_pictures(ctx);
         self.poll_rendering();
         self.poll_environment(ctx);
+        self.poll_lights();
         self.poll_watch(ctx);
         self.poll_faults();
         self.poll_picking(ctx);
+        self.poll_copying(ctx);
         self.poll_document(ctx);
+        self.poll_flaw();
         self.poll_range_fit();
         self.poll_framing(ctx);
         self.refresh_pick(ctx);

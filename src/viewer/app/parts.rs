@@ -12,14 +12,16 @@
 use super::Sheet;
 use super::dialogs::Dialogs;
 use super::files::Neighbours;
+use super::flaws::FlawSearch;
 use super::framing::PartBounds;
 use super::inspecting::Inspecting;
 use super::legend::RangeFit;
-use super::light::{EnvironmentFile, SceneLights};
+use super::light::EnvironmentFile;
 use super::magnifier::Magnifier;
 use super::path::PickedPath;
 use super::pick::{Pick, Picking};
 use super::pointer::Clicks;
+use super::scene_lights::SceneLights;
 use crate::about_sheet::AboutSheet;
 use crate::command::palette::Palette;
 use crate::comparison::{Comparison, Side};
@@ -31,6 +33,7 @@ use crate::look::Development;
 use crate::opening::Loading;
 use crate::overlay::OverlayLayer;
 use crate::parts::Parts;
+use crate::retired::Retired;
 use crate::saving::Saving;
 use crate::session::Session;
 use crate::settings::Settings;
@@ -51,6 +54,8 @@ use std::sync::Arc;
 /// What is open, and work on files.
 pub(crate) struct Open {
     pub document: Document,
+    /// Documents that were closed.
+    pub retired: Retired,
     pub loading: Option<Loading>,
     pub load_options: LoadOptions,
     pub watch: Option<Watch>,
@@ -72,6 +77,7 @@ impl Open {
     pub fn new(document: Document, load_options: LoadOptions) -> Self {
         Self {
             document,
+            retired: Retired::default(),
             loading: None,
             load_options,
             watch: None,
@@ -134,12 +140,16 @@ pub(crate) struct Picked {
     pub pick: Option<Pick>,
     /// The next pick, while it is being inspected.
     pub picking: Option<Picking>,
+    /// The text of the pick that will be copied.
+    pub copying: Option<Task<String>>,
     pub inspecting: Inspecting,
     pub path: PickedPath,
     /// The lookup of the pick's face in the file, while it runs.
     pub face_lookup: Option<FaceLookup>,
     /// The flaw that is shown; all of its kind are marked.
     pub flaw: Option<FlawPlace>,
+    /// The search for the flaw that will be shown.
+    pub flaw_search: Option<FlawSearch>,
     /// The search for the bounds of the part that will be framed.
     pub part_bounds: Option<PartBounds>,
 }
@@ -149,6 +159,11 @@ impl Picked {
     pub fn clear_pick(&mut self) {
         (self.pick, self.picking, self.face_lookup) = (None, None, None);
         self.clicks.pending = None;
+    }
+
+    /// Marks no flaw.
+    pub fn forget_flaw(&mut self) {
+        (self.flaw, self.flaw_search) = (None, None);
     }
 }
 
@@ -194,7 +209,7 @@ pub(crate) struct Traced {
     pub development: Development,
     pub picture: Picture,
     /// The lights of the last request that needs lights.
-    pub lights: Option<SceneLights>,
+    pub lights: SceneLights,
     pub environment_file: EnvironmentFile,
     pub overlay: OverlayLayer,
     /// The search for the range of the numbers in the picture.
@@ -212,7 +227,7 @@ impl Traced {
             tracer,
             development: Development::default(),
             picture: Picture::new(render_state),
-            lights: None,
+            lights: SceneLights::default(),
             environment_file: EnvironmentFile::default(),
             overlay: OverlayLayer::new(render_state, adapter),
             range_fit: RangeFit::default(),

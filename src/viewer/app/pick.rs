@@ -18,7 +18,7 @@ use std::time::Duration;
 
 /// A clicked pixel and its inspection.
 pub(crate) struct Pick {
-    pub inspection: Inspection,
+    pub inspection: Arc<Inspection>,
     /// The camera of the picture that was clicked.
     pub camera: Camera,
     /// The scene's origin in the file's coordinates.
@@ -206,15 +206,6 @@ impl App {
         }
     }
 
-    /// Copies the inspection as JSON, with the path of the selected sample if the view follows paths.
-    pub(crate) fn copy_pick(&self, ctx: &egui::Context) {
-        if let Some(pick) = &self.picked.pick {
-            let mut inspection = pick.inspection.clone();
-            inspection.path = self.current_path().cloned();
-            ctx.copy_text(inspection.to_json());
-        }
-    }
-
     /// Inspects a pixel of a side and opens the Inspect tab.
     pub(super) fn inspect(
         &mut self,
@@ -294,7 +285,7 @@ impl App {
             let inspection =
                 Inspection::of_pixel(&scene, &*intersector, shading, &traced_camera, pixel);
             Pick {
-                inspection,
+                inspection: Arc::new(inspection),
                 camera,
                 origin,
                 crossing: None,
@@ -312,7 +303,7 @@ impl App {
     }
 
     fn start_face_lookup(&mut self, pick: &Pick, ctx: &egui::Context) {
-        let Some(document) = self.file_of_pick() else {
+        let Some(document) = self.file_of(self.inspected_side()) else {
             self.picked.face_lookup = None;
             return;
         };
@@ -353,9 +344,10 @@ impl App {
         self.picked.picking = None;
         match result {
             Ok(mut pick) => {
-                if let Some(document) = self.file_of_pick() {
+                if let Some(document) = self.file_of(self.inspected_side()) {
                     let lines = &document.loaded.report.face_lines;
-                    pick.inspection.find_line(lines);
+                    // Nothing else uses it yet, so that nothing is copied.
+                    Arc::make_mut(&mut pick.inspection).find_line(lines);
                 }
                 let index = |pick: &Pick| pick.triangle().map(|triangle| triangle.index);
                 let is_same = |old: &Pick| index(old) == index(&pick) && old.face.is_some();

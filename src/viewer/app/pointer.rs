@@ -72,8 +72,8 @@ impl App {
             let releases = input.events.iter().filter(is_release);
             (input.time, releases.count())
         });
-        if side == Side::A && ui.input(|input| input.modifiers.command) {
-            self.pick_pixel(shown.camera, shown.pixel, true, ui.ctx());
+        if ui.input(|input| input.modifiers.command) {
+            self.pick_pixel(side, shown, true, ui.ctx());
             return;
         }
         let first = self.picked.clicks.pending.take();
@@ -114,13 +114,9 @@ impl App {
             ctx.request_repaint_after(std::time::Duration::from_secs_f64(left_secs));
             return;
         }
-        let (side, ShownPixel { camera, pixel }) = (click.side, click.shown);
+        let (side, shown) = (click.side, click.shown);
         self.picked.clicks.pending = None;
-        match side {
-            Side::A => self.pick_pixel(camera, pixel, false, ctx),
-            // The list of picks is that of the open scene.
-            Side::B => self.inspect(Side::B, camera, pixel, ctx),
-        }
+        self.pick_pixel(side, shown, false, ctx);
     }
 
     /// The camera of the picture on the screen; `None` while the screen shows another mesh or nothing.

@@ -7,31 +7,35 @@ use crate::theme;
 use crate::tracer::Request;
 use glam::UVec2;
 use hitscope_core::Camera;
-use hitscope_core::integrator::{Context, Lighting, Setting};
+use hitscope_core::integrator::{Context, INTEGRATORS, Lighting, Setting};
 use std::sync::Arc;
 
 impl App {
     /// The request for the current camera and settings.
     pub(super) fn wanted(&mut self, ctx: &egui::Context, resolution: UVec2) -> Request {
-        let kept = self.traced.lights.take();
+        let mut lights = std::mem::take(&mut self.traced.lights);
         let (document, settings) = (&self.open.document, &self.seen.settings);
-        let (lighting, lights) = self.lighting(settings, &document.loaded, kept);
+        let lighting = self.lighting(settings, &document.loaded, &mut lights, ctx);
         let camera = self.seen.turntable.camera(resolution);
         let request = self.request_of(document, settings, camera, lighting, ctx.theme());
         self.traced.lights = lights;
         request
     }
 
-    /// The request for a document as these settings show it.
+    /// The request for a document as these settings show it. Without lighting, which the view needs, it is for the first
+    /// view of the table.
     pub(super) fn request_of(
         &self,
         document: &Document,
         settings: &Settings,
         camera: Camera,
-        lighting: Lighting,
+        lighting: Option<Lighting>,
         theme: egui::Theme,
     ) -> Request {
-        let view = settings.view();
+        let view = match &lighting {
+            Some(_) => settings.view(),
+            None => INTEGRATORS[0],
+        };
         let mut options = settings.colours.options(view);
         if view.needs.uses(Setting::PartColours) && is_mesh_of(document, &self.open.document) {
             options.surface_colours = self.seen.parts.colours().cloned();
@@ -44,7 +48,7 @@ impl App {
                 camera,
                 shading: settings.shading(),
                 background: theme::background(view, settings.colours.background, theme),
-                lighting,
+                lighting: lighting.unwrap_or_default(),
                 options,
             },
             integrator: view,

@@ -1,6 +1,7 @@
 //! Sessions, and undo and redo of what they hold.
 
 use super::App;
+use super::pick::Pick;
 use crate::document::Document;
 use crate::history::Gesture;
 use crate::saving::Saving;
@@ -29,19 +30,19 @@ impl App {
     fn picked_pixel(&self) -> Option<PickedPixel> {
         let origin = self.open.document.loaded.scene.mesh().origin();
         let pick = self.picked.pick.as_ref();
-        if let Some(picking) = &self.picked.picking {
-            let crossing = picking.crossing(pick);
-            return Some(PickedPixel::new(
-                &picking.camera,
-                picking.pixel,
-                crossing,
-                origin,
-            ));
-        }
-        pick.map(|pick| {
+        let of_pick = |pick: &Pick| {
             let pixel = pick.inspection.pixel.into();
             PickedPixel::new(&pick.camera, pixel, pick.crossing(), origin)
-        })
+        };
+        let picked = match &self.picked.picking {
+            Some(picking) => {
+                let crossing = picking.crossing(pick);
+                let (camera, pixel) = (&picking.camera, picking.pixel);
+                Some(PickedPixel::new(camera, pixel, crossing, origin))
+            }
+            None => pick.map(of_pick),
+        };
+        picked.map(|picked| picked.on(self.picked.side))
     }
 
     /// Shows the document as it was seen.
@@ -60,6 +61,7 @@ impl App {
             self.picked.clear_pick();
             let camera = wanted.and_then(|pick| Some((pick, pick.camera(origin).ok()?)));
             if let Some((pick, camera)) = camera {
+                self.picked.side = pick.side;
                 self.start_picking(camera, pick.pixel(), pick.crossing, ctx);
             }
         }

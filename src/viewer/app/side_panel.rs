@@ -94,7 +94,7 @@ impl App {
                 let flaw = self.picked.flaw.as_ref();
                 let shown = panels::mesh::mesh_ui(ui, &mut self.open.document, flaw, commands);
                 if let Some(shown) = shown {
-                    self.show_flaw(shown);
+                    self.show_flaw(shown, ui.ctx());
                 }
             }
             Tab::Trade => self.trade_ui(ui),

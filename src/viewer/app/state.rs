@@ -28,6 +28,7 @@ impl App {
         self.open.loading.is_none()
             && self.open.session.is_none()
             && !self.is_loading_environment()
+            && !self.traced.lights.is_pending()
             && self.open.document.has_last_tree()
             && !self.seen.parts.is_stale()
             && self.open.document.shows(self.seen.parts.shown())
@@ -80,7 +81,7 @@ impl App {
 
     /// The inspection of the picked pixel.
     pub fn inspection(&self) -> Option<&Inspection> {
-        self.picked.pick.as_ref().map(|pick| &pick.inspection)
+        self.picked.pick.as_ref().map(|pick| &*pick.inspection)
     }
 
     /// The path of a sample of the picked pixel, if the view follows paths.

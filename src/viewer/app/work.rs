@@ -167,10 +167,11 @@ mod tests {
         drop(hold);
 
         let hold = sabotage::hold("parts");
-        let scene = std::sync::Arc::clone(&window.state().document().loaded.scene);
-        let parts = &mut window.state_mut().seen.parts;
-        parts.list(&scene);
-        parts.show(1, false);
+        while window.state_mut().seen.parts.list().is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(5));
+            window.step();
+        }
+        window.state_mut().seen.parts.show(1, false);
         while !is_shown(&window, "Cancel") {
             std::thread::sleep(std::time::Duration::from_millis(20));
             window.step();

@@ -142,6 +142,8 @@ pub struct Comparison {
     pub divider: f32,
     /// The factor by which differences are multiplied.
     pub gain: f32,
+    /// Whether side A is rasterized instead of traced.
+    pub is_a_rasterized: bool,
     /// The source of side B.
     pub source: Source,
     /// Name of side B's view.
@@ -163,6 +165,7 @@ impl Default for Comparison {
             mode: Mode::default(),
             divider: 0.5,
             gain: 8.0,
+            is_a_rasterized: false,
             source: Source::default(),
             view: None,
             kernel: None,
@@ -189,15 +192,27 @@ impl Comparison {
         settings
     }
 
-    /// Exchanges view, kernel and shading of both sides.
+    /// Exchanges view, kernel and shading of both sides, and whether they are rasterized. Both show the open scene.
     pub fn swap(&mut self, of_a: &mut Settings) {
         let of_b = self.settings(of_a);
+        let is_b_rasterized = self.source == Source::Rasterized;
+        self.source = if self.is_a_rasterized {
+            Source::Rasterized
+        } else {
+            Source::Traced
+        };
+        self.is_a_rasterized = is_b_rasterized;
         self.view = Some(of_a.view().name.to_owned());
         self.kernel = Some(of_a.kernel().info.name.to_owned());
         self.is_smooth = Some(of_a.is_smooth);
         of_a.keep_view(of_b.view().name);
         of_a.keep_kernel(of_b.kernel().info.name);
         of_a.is_smooth = of_b.is_smooth;
+    }
+
+    /// Whether a side is rasterized.
+    pub fn has_rasterized(&self) -> bool {
+        self.is_a_rasterized || self.source == Source::Rasterized
     }
 
     /// Shows side B alone, or side A alone if side B already is.
@@ -261,14 +276,20 @@ mod tests {
             view: Some("depth".to_owned()),
             kernel: Some("exact".to_owned()),
             is_smooth: Some(true),
+            is_a_rasterized: true,
             ..Comparison::default()
         };
         let before = (of_a.clone(), comparison.settings(&of_a));
+        let of_before = comparison.clone();
         comparison.swap(&mut of_a);
         assert_eq!(of_a.view().name, "depth");
         assert_eq!(comparison.settings(&of_a).view().name, before.0.view().name);
+        assert_eq!(comparison.source, Source::Rasterized);
+        assert!(!comparison.is_a_rasterized);
         comparison.swap(&mut of_a);
         assert_eq!((of_a.clone(), comparison.settings(&of_a)), before);
+        assert_eq!(comparison.source, of_before.source);
+        assert!(comparison.is_a_rasterized);
     }
 
     #[test]

@@ -3,7 +3,6 @@
 use glam::Vec3;
 use hitscope_core::colour::{COLOUR_MAPS, ColourScale};
 use hitscope_core::loading::LoadedScene;
-use hitscope_core::obj::LoadReport;
 use hitscope_core::{Camera, Intersector, Scene};
 use hitscope_lab::surface_comparison::{DistancePicture, OneSided, Surface, diagonal};
 use std::sync::Arc;
@@ -43,7 +42,7 @@ pub struct MeshDistances {
 fn bare(scene: &Arc<Scene>) -> LoadedScene {
     LoadedScene {
         scene: Arc::clone(scene),
-        report: LoadReport::default(),
+        report: Arc::default(),
         view: None,
         description: None,
         lights: Vec::new(),

@@ -2,6 +2,7 @@
 
 use super::rasterized::RasterizedPicture;
 use glam::{UVec2, Vec2, Vec3};
+use hitscope_core::Intersector;
 use hitscope_core::picture::{PictureEncoding, PictureFile};
 use hitscope_lab::picture_comparison::{PictureComparison, PicturePair};
 use rayon::prelude::*;
@@ -25,8 +26,16 @@ pub struct ComparedPictures {
     pub a: Pixels,
     /// Side B.
     pub b: Pixels,
-    /// Side B, if it is rasterized.
-    pub rasterized: Option<Arc<RasterizedPicture>>,
+    /// How visible triangles are compared, if a side is rasterized and both show the same scene.
+    pub visibility: Option<Visibility>,
+}
+
+/// Two ways to find the visible triangles of a scene.
+pub enum Visibility {
+    /// The rasterizer, and rays through the centres of the pixels.
+    TracedAndRasterized(Arc<dyn Intersector>, Arc<RasterizedPicture>),
+    /// The rasterizer, for both sides.
+    Rasterized([Arc<RasterizedPicture>; 2]),
 }
 
 /// Figures of the differences.
@@ -34,11 +43,11 @@ pub struct ComparedPictures {
 pub struct Figures {
     /// The differences of the colours.
     pub picture: PictureComparison,
-    /// The differences of the visible triangles, if side B is rasterized.
+    /// The differences of the visible triangles, if a side is rasterized.
     pub visibility: Option<VisibilityDifference>,
 }
 
-/// The pixels at whose centres a rasterized picture and rays show different triangles.
+/// The pixels at whose centres both sides show different triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VisibilityDifference {
     /// Pixels that show a triangle in either picture.
@@ -80,13 +89,29 @@ impl ComparedPictures {
         let pair = PicturePair::new(a, b).map_err(|error| error.to_string())?;
         Ok(Figures {
             picture: pair.compared(0.0),
-            visibility: self.rasterized.as_deref().map(visibility),
+            visibility: self.visibility.as_ref().map(Visibility::difference),
         })
     }
 }
 
+impl Visibility {
+    fn difference(&self) -> VisibilityDifference {
+        match self {
+            Self::TracedAndRasterized(intersector, picture) => traced(&**intersector, picture),
+            Self::Rasterized([a, b]) => {
+                let pairs = a.triangles.iter().zip(&b.triangles);
+                let covered = pairs.clone().filter(|(a, b)| (**a, **b) != (0, 0));
+                VisibilityDifference {
+                    covered: covered.count(),
+                    different: pairs.filter(|(a, b)| a != b).count(),
+                }
+            }
+        }
+    }
+}
+
 /// Traces a ray through the centre of each pixel of a rasterized picture.
-fn visibility(picture: &RasterizedPicture) -> VisibilityDifference {
+fn traced(intersector: &dyn Intersector, picture: &RasterizedPicture) -> VisibilityDifference {
     let context = &picture.request.context;
     let (camera, scene) = (&context.camera, &context.scene);
     let width = camera.resolution().x as usize;
@@ -94,7 +119,7 @@ fn visibility(picture: &RasterizedPicture) -> VisibilityDifference {
         let ray = |x: usize| camera.ray(UVec2::new(x as u32, y as u32), Vec2::splat(0.5));
         let rays: Vec<_> = (0..row.len()).map(ray).collect();
         let mut hits = vec![None; rays.len()];
-        context.intersector.coherent_hits(&rays, &mut hits);
+        intersector.coherent_hits(&rays, &mut hits);
         let traced = hits.iter().map(|hit| match hit {
             Some(hit) if scene.is_triangle(hit.primitive) => Some(hit.primitive + 1),
             // A shape that isn't rasterized: the pixel differs whatever is drawn there.
@@ -129,7 +154,7 @@ mod tests {
                 size,
                 a,
                 b,
-                rasterized: None,
+                visibility: None,
             };
             compare.figures().expect("of one size").picture
         };
@@ -149,7 +174,7 @@ mod tests {
             size,
             a: linear(0.0),
             b: Pixels::File(Arc::new(file)),
-            rasterized: None,
+            visibility: None,
         };
         assert!(compare.figures().is_err());
     }

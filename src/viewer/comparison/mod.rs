@@ -21,7 +21,7 @@ mod traced;
 pub use choice::{Comparison, GAINS, Mode, Side, Source};
 pub use difference::difference_picture;
 pub use distances::{DistanceMap, MapKey, MeshDistances, SurfacePair};
-pub use figures::{ComparedPictures, Figures, Pixels, VisibilityDifference};
+pub use figures::{ComparedPictures, Figures, Pixels, Visibility, VisibilityDifference};
 pub use rasterized::{Rasterized, RasterizedPicture};
 pub use reference::Reference;
 pub use traced::TracedSide;

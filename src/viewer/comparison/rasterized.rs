@@ -80,6 +80,19 @@ impl Rasterized {
         (!others.is_empty()).then(|| others.join(", "))
     }
 
+    /// Uses the triangles that another side has uploaded of this scene.
+    pub fn share_mesh(&mut self, other: &Self, scene: &Scene) {
+        let is_of = |mesh: &&Uploaded| mesh.0.has_shapes_of(scene);
+        if self.mesh.as_ref().filter(is_of).is_none() {
+            self.mesh = other
+                .mesh
+                .as_ref()
+                .filter(is_of)
+                .cloned()
+                .or(self.mesh.take());
+        }
+    }
+
     /// Draws a request, now or after the one being drawn. A view that can't be rasterized is replaced by the first view of
     /// the table.
     pub fn request(&mut self, mut request: Request, ctx: &egui::Context) {
@@ -139,6 +152,19 @@ impl Rasterized {
     /// The newest picture.
     pub fn picture(&self) -> Option<&Arc<RasterizedPicture>> {
         self.picture.as_ref()
+    }
+
+    /// The title of a view, or of the one that replaces it if it can't be rasterized.
+    pub fn title_of(view: &Integrator) -> &'static str {
+        let drawn = Self::views().find(|known| known.name == view.name);
+        drawn
+            .unwrap_or(hitscope_core::integrator::INTEGRATORS[0])
+            .title
+    }
+
+    /// Whether nothing was requested.
+    pub fn is_unused(&self) -> bool {
+        self.wanted.is_none()
     }
 
     /// Whether the newest request is drawn.

@@ -1,6 +1,7 @@
 //! The part of a document's scene that is shown: what a clip keeps of the primitives that aren't hidden.
 
 use super::{Document, Packing};
+use crate::retired::Shared;
 use crate::task::{Pending, Task, TaskPanicked};
 use hitscope_core::clip::ClipError;
 use hitscope_core::kernel::KernelChoice;
@@ -55,6 +56,14 @@ impl Packed {
     /// The intersector, cut by the clip.
     pub fn intersector(&self) -> &Arc<dyn Intersector> {
         &self.clipped
+    }
+}
+
+impl Shared for Packed {
+    fn is_shared(&self) -> bool {
+        // This holds the intersector twice: whole, and in its clipped form.
+        let is_same = Arc::ptr_eq(&self.whole, &self.clipped);
+        Arc::strong_count(&self.whole) > 2 || (!is_same && self.clipped.is_shared())
     }
 }
 
@@ -144,7 +153,10 @@ impl Document {
         } else {
             scene.with_crease(current.crease())
         };
-        (self.packing, self.second) = (Packing::new(kernel, packed), None);
+        let old = std::mem::replace(&mut self.packing, Packing::new(kernel, packed));
+        self.retired.add(old.packed);
+        self.drop_second();
+        self.retired.add(Arc::clone(&self.loaded.scene));
         self.replace_scene(Arc::new(scene));
         self.stop_improving();
         self.progress = Progress::default();

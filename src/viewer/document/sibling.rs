@@ -3,7 +3,6 @@
 use super::{Document, Packing};
 use crate::task::Pending;
 use hitscope_core::loading::LoadedScene;
-use hitscope_core::obj::LoadReport;
 use std::sync::Arc;
 
 impl Document {
@@ -11,7 +10,7 @@ impl Document {
     pub fn sibling(&self) -> Self {
         let loaded = LoadedScene {
             scene: Arc::clone(&self.loaded.scene),
-            report: LoadReport::default(),
+            report: Arc::default(),
             view: None,
             description: self.loaded.description.clone(),
             lights: self.loaded.lights.clone(),
@@ -39,7 +38,8 @@ impl Document {
             self.replace_scene(Arc::clone(scene));
         } else {
             let part_changes = self.part_changes.max(original.part_changes) + 1;
-            *self = original.sibling();
+            let old = std::mem::replace(self, original.sibling());
+            self.retired.add(old);
             self.part_changes = part_changes;
         }
     }

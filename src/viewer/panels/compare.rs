@@ -63,16 +63,32 @@ pub fn compare_ui(
     });
     ui.separator();
     ui.label(RichText::new(&view.names[0]).strong());
-    looks_of_a_ui(ui, of_a, view);
+    commands.check_box_ui(ui, "compare-rasterize-a");
+    looks_of_a_ui(ui, of_a, comparison, view);
     ui.separator();
     ui.label(RichText::new(&view.names[1]).strong());
     let is_cancelled = source_ui(ui, comparison, view, commands);
     if comparison.source != Source::Picture {
         looks_of_b_ui(ui, of_a, comparison, view);
     }
+    if comparison.has_rasterized() {
+        rasterized_ui(ui, view);
+    }
     ui.separator();
     figures_ui(ui, comparison, view);
     is_cancelled
+}
+
+/// What rasterized pictures are and lack.
+fn rasterized_ui(ui: &mut egui::Ui, view: &CompareView<'_>) {
+    ui.separator();
+    let about = "Rasterized: one sample at the centre of each pixel. Views that trace light are replaced by Shaded.";
+    ui.label(RichText::new(about).weak());
+    if let Some(shapes) = &view.not_drawn {
+        ui.label(format!(
+            "Not rasterized, because they aren't triangles: {shapes}"
+        ));
+    }
 }
 
 fn mode_ui(ui: &mut egui::Ui, comparison: &mut Comparison, view: &CompareView<'_>) {
@@ -128,20 +144,7 @@ fn source_ui(
         combo.response.labelled_by(label.id);
     });
     match comparison.source {
-        Source::Traced => {}
-        Source::Rasterized => {
-            ui.label(
-                RichText::new(
-                    "One sample at the centre of each pixel. Views that trace light are replaced by Shaded.",
-                )
-                .weak(),
-            );
-            if let Some(shapes) = &view.not_drawn {
-                ui.label(format!(
-                    "Not rasterized, because they aren't triangles: {shapes}"
-                ));
-            }
-        }
+        Source::Traced | Source::Rasterized => {}
         Source::Mesh => {
             commands.button_ui(ui, "compare-mesh");
             return view.loading.is_some_and(|loading| loading.progress_ui(ui));
@@ -166,7 +169,12 @@ fn source_ui(
 }
 
 /// View, kernel and shading of side A.
-fn looks_of_a_ui(ui: &mut egui::Ui, settings: &mut Settings, view: &CompareView<'_>) {
+fn looks_of_a_ui(
+    ui: &mut egui::Ui,
+    settings: &mut Settings,
+    comparison: &Comparison,
+    view: &CompareView<'_>,
+) {
     let shown = settings.view();
     let mut chosen = Some(shown.name.to_owned());
     choice_ui(
@@ -175,11 +183,21 @@ fn looks_of_a_ui(ui: &mut egui::Ui, settings: &mut Settings, view: &CompareView<
         &mut chosen,
         shown.title,
         None,
-        views(INTEGRATORS),
+        views_for(comparison.is_a_rasterized),
     );
     if let Some(name) = chosen.filter(|name| name != shown.name) {
         settings.keep_view(&name);
     }
+    if !comparison.is_a_rasterized {
+        kernel_of_a_ui(ui, settings, view);
+    }
+    let mut chosen = Some(Settings::shading_name(settings.is_smooth).to_owned());
+    let used = Settings::shading_name(settings.is_smooth);
+    choice_ui(ui, "Shading of A", &mut chosen, used, None, shadings());
+    settings.is_smooth = chosen.as_deref() == Some(Settings::shading_name(true));
+}
+
+fn kernel_of_a_ui(ui: &mut egui::Ui, settings: &mut Settings, view: &CompareView<'_>) {
     let kernel = settings.kernel().info;
     let mut chosen = Some(kernel.name.to_owned());
     let kernels = kernels(&view.kernels);
@@ -194,10 +212,6 @@ fn looks_of_a_ui(ui: &mut egui::Ui, settings: &mut Settings, view: &CompareView<
     if let Some(name) = chosen.filter(|name| name != kernel.name) {
         settings.keep_kernel(&name);
     }
-    let mut chosen = Some(Settings::shading_name(settings.is_smooth).to_owned());
-    let used = Settings::shading_name(settings.is_smooth);
-    choice_ui(ui, "Shading of A", &mut chosen, used, None, shadings());
-    settings.is_smooth = chosen.as_deref() == Some(Settings::shading_name(true));
 }
 
 /// View, kernel and shading of side B.
@@ -210,12 +224,6 @@ fn looks_of_b_ui(
     const AS_A: Option<&str> = Some("same as A");
     let of_b = comparison.settings(of_a);
     let is_rasterized = comparison.source == Source::Rasterized;
-    let rasterized: Vec<&Integrator> = Rasterized::views().collect();
-    let all = if is_rasterized {
-        &rasterized
-    } else {
-        INTEGRATORS
-    };
     let used = of_b.view().title;
     choice_ui(
         ui,
@@ -223,7 +231,7 @@ fn looks_of_b_ui(
         &mut comparison.view,
         used,
         AS_A,
-        views(all),
+        views_for(is_rasterized),
     );
     if !is_rasterized {
         let used = of_b.kernel().info.short_name();
@@ -248,9 +256,14 @@ fn looks_of_b_ui(
 /// The names of choices, with their titles.
 type Choices = Vec<(&'static str, String)>;
 
-fn views(views: &[&'static Integrator]) -> Choices {
-    let choice = |view: &&'static Integrator| (view.name, view.title.to_owned());
-    views.iter().map(choice).collect()
+/// The views of a side.
+fn views_for(is_rasterized: bool) -> Choices {
+    let choice = |view: &'static Integrator| (view.name, view.title.to_owned());
+    if is_rasterized {
+        Rasterized::views().map(choice).collect()
+    } else {
+        INTEGRATORS.iter().copied().map(choice).collect()
+    }
 }
 
 fn kernels(shapes: &[ShapeKernels]) -> Choices {

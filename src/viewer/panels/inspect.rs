@@ -1,16 +1,18 @@
 //! The Inspect tab: the hit of the picked pixel's ray and the answers of all kernels.
 
-use super::table::{dash, table_ui};
-use super::{kernel_name, lines, row_ui, rows_ui, section_ui};
+mod kernels;
+
+use super::{lines, row_ui, rows_ui, section_ui};
 use crate::command::{Commands, keys::keys_of};
 use crate::face_lookup::FaceInFile;
 use crate::numbers::{number, significant};
 use egui::{CollapsingHeader, RichText};
 use hitscope_core::counts::{counted, counted_as};
 use hitscope_lab::inspection::{
-    CrossingReport, ExactReport, ExactTriangle, HitReport, Inspection, KernelRow, OperandName,
-    ParameterReport, ParameterValue, Parameters, SolidReport, TriangleReport,
+    CrossingReport, HitReport, Inspection, OperandName, ParameterReport, ParameterValue,
+    Parameters, SolidReport, TriangleReport,
 };
+use kernels::kernels_ui;
 
 /// The contents of the tab for a pick.
 pub struct PickView<'p> {
@@ -229,8 +231,7 @@ fn crossings_ui(
             side,
             ..
         } = crossing;
-        let also = crossing.also.iter().map(|also| format!(", also {also}"));
-        let also: String = also.collect();
+        let also = also(&crossing.also);
         row_ui(
             ui,
             "primitive",
@@ -266,141 +267,16 @@ fn triangle_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &TriangleReport) {
     });
 }
 
-/// Shows the exact answer, a summary of all kernels, and each kernel's answer.
-fn kernels_ui(ui: &mut egui::Ui, inspection: &Inspection) {
-    let (exact, kernels) = (inspection.exact.as_ref(), &inspection.kernels[..]);
-    ui.label(RichText::new("Kernels compared with exact arithmetic").strong());
-    ui.label(summary(exact, kernels));
-    if let Some(exact) = exact {
-        let also = exact.also.iter();
-        let also: String = also.map(|t| format!(", and {t} at the same t")).collect();
-        let place = match &exact.fractions {
-            Some(triangle) if triangle.is_on_boundary => "on the boundary of triangle",
-            Some(_) => "inside triangle",
-            None => "on primitive",
-        };
-        let text = format!("The exact hit is {place} {}{also}.", exact.primitive);
-        ui.label(RichText::new(text).weak());
+/// The primitives that a ray hits at the same t as another one. A bad mesh may have a million of them.
+fn also(primitives: &[u32]) -> String {
+    const MOST: usize = 8;
+    let (first, rest) = primitives.split_at(primitives.len().min(MOST));
+    let names = first.iter().map(|primitive| format!(", also {primitive}"));
+    let mut text: String = names.collect();
+    if !rest.is_empty() {
+        text += &format!(" and {} more", rest.len());
     }
-    CollapsingHeader::new("All kernels")
-        .id_salt("kernels")
-        .show_unindented(ui, |ui| kernel_tables_ui(ui, exact, kernels));
-    if let Some(triangle) = exact.and_then(|exact| exact.fractions.as_ref()) {
-        fractions_ui(ui, triangle);
-    }
-    ui.add_space(4.0);
-}
-
-/// The number of kernels that agree with exact arithmetic, and the largest error of t.
-fn summary(exact: Option<&ExactReport>, kernels: &[KernelRow]) -> String {
-    let is_right = |kernel: &&KernelRow| kernel.triangle == exact.map(|exact| exact.primitive);
-    let right = kernels.iter().filter(is_right).count();
-    let decision = if exact.is_some() {
-        "find the exact primitive"
-    } else {
-        "miss, as exact arithmetic does"
-    };
-    let errors = kernels.iter().filter_map(|kernel| kernel.t_error_ulps);
-    let worst = errors.reduce(f64::max).map_or_else(String::new, |ulps| {
-        format!("; largest error of t: {} ulps", significant(ulps, 3))
-    });
-    let count = kernels.len();
-    if right == count {
-        format!("All {count} kernels {decision}{worst}.")
-    } else {
-        format!("{right} of {count} kernels {decision}{worst}.")
-    }
-}
-
-/// Shows all answers in tables that are narrow enough for the panel's default width.
-fn kernel_tables_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[KernelRow]) {
-    egui::ScrollArea::horizontal()
-        .id_salt("kernel tables")
-        .show(ui, |ui| {
-            ui.label("Distance, with its error in f32 ulps");
-            let columns = ["", "t", "error", "primitive"];
-            let rows = kernels.iter().map(kernel_distance);
-            table_ui(
-                ui,
-                columns,
-                std::iter::once(exact_distance(exact)).chain(rows),
-            );
-            // Only hits of triangles have barycentric coordinates.
-            let has_none = |kernel: &KernelRow| kernel.barycentric.is_none();
-            if exact.is_none_or(|exact| exact.fractions.is_none()) && kernels.iter().all(has_none) {
-                return;
-            }
-            ui.add_space(4.0);
-            ui.label("Barycentric coordinates, with the largest error");
-            let columns = ["", "l1", "l2", "l3", "error"];
-            let rows = kernels.iter().map(kernel_barycentric);
-            table_ui(
-                ui,
-                columns,
-                std::iter::once(exact_barycentric(exact)).chain(rows),
-            );
-        });
-}
-
-/// Shows the exact numbers as fractions of up to some hundred digits.
-fn fractions_ui(ui: &mut egui::Ui, exact: &ExactTriangle) {
-    CollapsingHeader::new("As fractions")
-        .id_salt("fractions")
-        .show(ui, |ui| {
-            let [l1, l2, l3] = &exact.barycentric_fractions;
-            for (name, fraction) in [("t", &exact.t_fraction), ("l1", l1), ("l2", l2), ("l3", l3)] {
-                let text = RichText::new(format!("{name} = {fraction}"))
-                    .monospace()
-                    .size(10.5);
-                ui.add(egui::Label::new(text).wrap());
-            }
-        });
-}
-
-fn exact_distance(exact: Option<&ExactReport>) -> [String; 4] {
-    [
-        EXACT.to_owned(),
-        // Two digits more than an f32 needs.
-        exact.map_or("miss".to_owned(), |exact| significant(exact.t, 11)),
-        dash(),
-        exact.map_or_else(dash, |exact| exact.primitive.to_string()),
-    ]
-}
-
-fn kernel_distance(kernel: &KernelRow) -> [String; 4] {
-    [
-        kernel_name(kernel.name).to_owned(),
-        kernel.t.map_or("miss".to_owned(), number),
-        rounded_error(kernel.t_error_ulps),
-        kernel.triangle.map_or_else(dash, |t| t.to_string()),
-    ]
-}
-
-fn exact_barycentric(exact: Option<&ExactReport>) -> [String; 5] {
-    let [l1, l2, l3] =
-        coordinates(exact.and_then(|exact| Some(exact.fractions.as_ref()?.barycentric)));
-    [EXACT.to_owned(), l1, l2, l3, dash()]
-}
-
-fn kernel_barycentric(kernel: &KernelRow) -> [String; 5] {
-    let [l1, l2, l3] = coordinates(kernel.barycentric.map(|l| l.map(f64::from)));
-    let name = kernel_name(kernel.name).to_owned();
-    [name, l1, l2, l3, rounded_error(kernel.barycentric_error)]
-}
-
-/// The row of the exact numbers.
-const EXACT: &str = "exact answer";
-
-/// Barycentric coordinates with the digits that fit; *Copy as JSON* has them all.
-fn coordinates(barycentric: Option<[f64; 3]>) -> [String; 3] {
-    barycentric.map_or_else(
-        || std::array::from_fn(|_| dash()),
-        |l| l.map(|l| significant(l, 7)),
-    )
-}
-
-fn rounded_error(error: Option<f64>) -> String {
-    error.map_or_else(dash, |error| significant(error, 2))
+    text
 }
 
 fn or_dash(name: &str) -> &str {
@@ -410,6 +286,14 @@ fn or_dash(name: &str) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn of_many_primitives_at_the_same_place_the_first_are_named() {
+        assert_eq!(also(&[]), "");
+        assert_eq!(also(&[3, 7]), ", also 3, also 7");
+        let many: Vec<u32> = (0..1000).collect();
+        assert!(also(&many).ends_with(", also 7 and 992 more"));
+    }
 
     #[test]
     fn a_symbol_is_not_repeated() {

@@ -11,14 +11,8 @@ const MIN_HEIGHT: f32 = 120.0;
 /// sRGB of the colour button of a part that isn't a material and has no custom colour.
 const VARIOUS: [u8; 3] = [160; 3];
 
-/// Shows the tab; `picked` is the part of the picked primitive.
-pub fn parts_ui(
-    ui: &mut egui::Ui,
-    parts: &mut Parts,
-    list: &PartList,
-    picked: Option<usize>,
-    commands: &Commands,
-) {
+/// Shows the tab; `picked` is the picked primitive.
+pub fn parts_ui(ui: &mut egui::Ui, parts: &mut Parts, picked: Option<u32>, commands: &Commands) {
     ui.horizontal(|ui| {
         ui.label("By");
         for grouping in Grouping::ALL {
@@ -35,16 +29,18 @@ pub fn parts_ui(
     });
     ui.add(TextEdit::singleline(&mut parts.filter).hint_text("Search"))
         .accessible_name("Search for a part");
-    let filter = parts.filter.to_lowercase();
-    let is_listed = |number: &usize| {
-        list.parts[*number]
-            .key
-            .name
-            .to_lowercase()
-            .contains(&filter)
+    let Some(list) = parts.list() else {
+        let text = if parts.has_failed() {
+            "The parts can't be listed; see the terminal for details."
+        } else {
+            "Listing the parts…"
+        };
+        ui.label(RichText::new(text).weak());
+        return;
     };
-    let listed: Vec<usize> = (0..list.parts.len()).filter(is_listed).collect();
-    ui.label(RichText::new(counted(listed.len(), "part")).weak());
+    let picked = picked.map(|primitive| list.part_of(primitive));
+    let matches = parts.matching(ui.ctx());
+    ui.label(RichText::new(counted(matches.count(), "part")).weak());
     // With a margin, so that the tab itself doesn't scroll.
     let height = ui.clip_rect().bottom() - ui.cursor().top() - 2.0 * ui.spacing().item_spacing.y;
     let row_height = ui.spacing().interact_size.y;
@@ -52,9 +48,9 @@ pub fn parts_ui(
         .id_salt("parts")
         .max_height(height.max(MIN_HEIGHT))
         .auto_shrink([false, true])
-        .show_rows(ui, row_height, listed.len(), |ui, rows| {
-            for &number in &listed[rows] {
-                row_ui(ui, parts, list, number, picked == Some(number));
+        .show_rows(ui, row_height, matches.count(), |ui, rows| {
+            for number in rows.map(|row| matches.part(row)) {
+                row_ui(ui, parts, &list, number, picked == Some(number));
             }
         });
 }

@@ -25,10 +25,12 @@ pub struct PickRow {
     pub name: String,
     /// Whether it stays when another pixel is picked.
     pub is_pinned: bool,
+    /// Whether it is on side B of a comparison.
+    pub is_on_b: bool,
     /// Whether it is the one that is inspected.
     pub is_selected: bool,
-    /// What its ray hits; `None` for a miss.
-    pub hit: Option<String>,
+    /// What its ray hits.
+    pub hit: String,
 }
 
 /// The walk of the selected pick.
@@ -132,7 +134,12 @@ fn pick_ui(ui: &mut egui::Ui, pick: &PickRow) -> Option<PicksChange> {
     let number = pick.number;
     ui.push_id(("pick", number), |ui| {
         ui.horizontal(|ui| {
-            let select = ui.selectable_label(pick.is_selected, format!("Pick {number}"));
+            let title = if pick.is_on_b {
+                format!("Pick {number} on B")
+            } else {
+                format!("Pick {number}")
+            };
+            let select = ui.selectable_label(pick.is_selected, title);
             if select.on_hover_text("Inspect this pick").clicked() {
                 change = Some(PicksChange::Select(number));
             }
@@ -161,8 +168,7 @@ fn pick_ui(ui: &mut egui::Ui, pick: &PickRow) -> Option<PicksChange> {
                 change = Some(PicksChange::Remove(number));
             }
         });
-        let hit = pick.hit.as_deref().unwrap_or("no hit");
-        ui.label(RichText::new(hit).weak());
+        ui.label(RichText::new(&pick.hit).weak());
     });
     change
 }

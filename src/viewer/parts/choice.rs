@@ -115,6 +115,13 @@ impl PartsChoice {
             .collect()
     }
 
+    /// The same parts with black instead of each custom colour: what decides which primitives are shown and coloured.
+    pub(super) fn without_colour_values(&self) -> Self {
+        let mut plain = self.clone();
+        plain.colours.iter_mut().for_each(|own| own.srgb = [0; 3]);
+        plain
+    }
+
     /// The parts with custom colours.
     pub(super) fn coloured(&self) -> Vec<PartKey> {
         self.colours.iter().map(|own| own.part.clone()).collect()

@@ -4,20 +4,38 @@
 //! |---|---|
 //! | `list` | the parts that a scene has |
 //! | `choice` | the user's choices about them, by name |
-//! | this file | the choices applied to a scene: the shown primitives and their colours |
+//! | `survey` | the choices applied to a scene: the shown primitives and their colours |
+//! | `search` | the listed parts whose names contain a text |
+//! | this file | the state of the parts, and the background task that surveys them |
 
 mod choice;
 mod list;
+mod search;
+mod survey;
 
 pub use choice::PartsChoice;
 pub use list::{Grouping, Part, PartKey, PartList};
 
 use crate::document::ShownPrimitives;
+use crate::task::{KeyedTask, Task, TaskPanicked};
 use hitscope_core::Scene;
 use hitscope_core::integrator::SurfaceColours;
 use hitscope_core::srgb::from_texel;
-use std::collections::HashMap;
+use search::{Matches, Search};
 use std::sync::Arc;
+use survey::{Lists, Order, Survey};
+
+/// A change of the part of a primitive, whose number is known once the parts are listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PartChange {
+    /// Hides it.
+    Hide,
+    /// Shows only it.
+    ShowOnly,
+}
+
+/// What a survey depends on: the choices without the values of the colours, and the grouping that is listed.
+type SurveyKey = (PartsChoice, Option<Grouping>);
 
 /// The parts of a scene, and which primitives are to be shown.
 #[derive(Default)]
@@ -26,11 +44,17 @@ pub struct Parts {
     pub grouping: Grouping,
     /// The text that the names of listed parts contain.
     pub filter: String,
+    search: Search,
     choice: PartsChoice,
-    /// Whether the choice has changed since [`refresh`](Self::refresh).
+    /// Whether the choice has changed since the last survey.
     is_stale: bool,
+    /// Whether the parts by the chosen grouping are to be listed.
+    wants_list: bool,
+    survey: KeyedTask<SurveyKey, Survey>,
+    /// Whether the last survey panicked.
+    has_failed: bool,
     /// The parts by each grouping, once they are listed.
-    lists: [Option<Arc<PartList>>; Grouping::ALL.len()],
+    lists: Lists,
     shown: ShownPrimitives,
     /// The number of primitives of each part that are shown.
     shown_counts: Vec<usize>,
@@ -41,6 +65,8 @@ pub struct Parts {
     coloured: Vec<PartKey>,
     /// The choice that the picture shows, and its primitives.
     applied: (PartsChoice, ShownPrimitives),
+    /// A change to be made to the part of a primitive once the parts are listed.
+    change: Option<(PartChange, u32)>,
 }
 
 impl Parts {
@@ -48,8 +74,8 @@ impl Parts {
     pub fn by(grouping: Grouping, choice: PartsChoice) -> Self {
         Self {
             grouping,
+            is_stale: choice != PartsChoice::default(),
             choice,
-            is_stale: true,
             ..Self::default()
         }
     }
@@ -65,93 +91,90 @@ impl Parts {
     }
 
     fn change(&mut self, change: impl FnOnce(&mut PartsChoice)) {
+        let before = self.choice.without_colour_values();
         change(&mut self.choice);
-        self.is_stale = true;
+        self.is_stale |= self.choice.without_colour_values() != before;
+        self.has_failed = false;
+        self.recolour();
     }
 
-    fn listed_by(&mut self, grouping: Grouping, scene: &Scene) -> Arc<PartList> {
-        let list = &mut self.lists[grouping as usize];
-        let listed = || Arc::new(PartList::of(scene, grouping));
-        Arc::clone(list.get_or_insert_with(listed))
-    }
-
-    /// The parts of a scene by the chosen grouping. The first call lists them.
-    pub fn list(&mut self, scene: &Scene) -> Arc<PartList> {
-        let list = self.listed_by(self.grouping, scene);
-        if self.counted != Some(self.grouping) {
-            self.count(&list);
+    /// Gives the coloured primitives the colours of the choice, unless other parts are coloured now.
+    fn recolour(&mut self) {
+        if self.coloured == self.choice.coloured() {
+            let colours = self.choice.colours().map(from_texel).collect();
+            let old = self.colours.take();
+            self.colours = old.map(|old| old.recoloured(colours));
         }
-        list
+    }
+
+    /// The parts by the chosen grouping; `None` until [`update`](Self::update) has listed them, which this asks for.
+    pub fn list(&mut self) -> Option<Arc<PartList>> {
+        self.wants_list = true;
+        self.listed().map(Arc::clone)
     }
 
     /// Groups the parts in another way. What is hidden stays hidden.
     pub fn group_by(&mut self, grouping: Grouping) {
         self.grouping = grouping;
+        self.has_failed = false;
     }
 
-    /// Whether [`refresh`](Self::refresh) has something to do.
+    /// Whether [`update`](Self::update) has something to do.
     pub fn is_stale(&self) -> bool {
-        self.is_stale
+        let lacks_list = self.wants_list && self.counted != Some(self.grouping);
+        !self.has_failed && (self.is_stale || lacks_list)
     }
 
-    /// Updates the primitives to show and their colours, if the choice has changed.
-    pub fn refresh(&mut self, scene: &Scene) {
-        if !std::mem::take(&mut self.is_stale) {
-            return;
-        }
-        let flags = self.flags(scene);
-        if self.shown.0.as_deref() != flags.as_ref() {
-            self.shown = ShownPrimitives(flags.map(Arc::new));
-            self.counted = None;
-        }
-        self.refresh_colours(scene);
+    /// Whether the last survey panicked, so that there is no list.
+    pub fn has_failed(&self) -> bool {
+        self.has_failed
     }
 
-    /// A flag for each primitive that tells whether it is to be shown; `None` if all are.
-    fn flags(&mut self, scene: &Scene) -> Option<Vec<bool>> {
-        if self.choice.shows_all() {
-            return None;
+    /// Applies the choice to the scene in the background, if it has changed, and lists the parts, if they were asked for.
+    /// Collects the result.
+    ///
+    /// # Errors
+    /// [`TaskPanicked`], once, if the task panicked; the picture's choice is back then.
+    pub fn update(&mut self, scene: &Arc<Scene>, ctx: &egui::Context) -> Result<(), TaskPanicked> {
+        if !self.is_stale() {
+            self.survey.cancel();
+            return Ok(());
         }
-        // The number of the last rule about each primitive, and what it says.
-        let mut last = vec![None; scene.primitive_count()];
-        for grouping in Grouping::ALL {
-            if self.choice.rules_by(grouping).is_empty() {
-                continue;
-            }
-            let list = self.listed_by(grouping, scene);
-            let of_parts = of_parts(&list, &self.choice.rules_by(grouping));
-            for (last, part) in last.iter_mut().zip(list.all()) {
-                *last = (*last).max(of_parts[part]);
+        let listed = self.wants_list.then_some(self.grouping);
+        let key = (self.choice.without_colour_values(), listed);
+        let has_numbers = self.coloured == self.choice.coloured();
+        let start = || {
+            let order = Order {
+                scene: Arc::clone(scene),
+                choice: self.choice.clone(),
+                listed,
+                lists: self.lists.clone(),
+                shown: self.shown.clone(),
+                colours: self.colours.clone().filter(|_| has_numbers),
+            };
+            Task::spawn("survey of parts", ctx, move || order.carry_out())
+        };
+        match self.survey.get(key, start) {
+            Ok(None) => {}
+            Ok(Some(survey)) => self.use_survey(survey, listed),
+            Err(panicked) => {
+                self.revert();
+                (self.is_stale, self.wants_list, self.change) = (false, false, None);
+                self.has_failed = true;
+                return Err(panicked);
             }
         }
-        let others = self.choice.shows_others();
-        let flag = |last: Option<(usize, bool)>| last.map_or(others, |(_, is_shown)| is_shown);
-        let flags: Vec<bool> = last.into_iter().map(flag).collect();
-        flags.contains(&false).then_some(flags)
+        Ok(())
     }
 
-    fn refresh_colours(&mut self, scene: &Scene) {
-        let coloured = self.choice.coloured();
-        let colours: Vec<_> = self.choice.colours().map(from_texel).collect();
-        if coloured.is_empty() {
-            self.colours = None;
-        } else if let Some(old) = self.colours.take_if(|_| self.coloured == coloured) {
-            self.colours = Some(old.recoloured(colours));
-        } else {
-            let mut numbers = vec![0; scene.primitive_count()];
-            for grouping in Grouping::ALL {
-                if self.choice.colours_by(grouping).is_empty() {
-                    continue;
-                }
-                let list = self.listed_by(grouping, scene);
-                let of_parts = of_parts(&list, &self.choice.colours_by(grouping));
-                for (number, part) in numbers.iter_mut().zip(list.all()) {
-                    *number = (*number).max(of_parts[part].unwrap_or(0));
-                }
-            }
-            self.colours = Some(SurfaceColours::new(numbers, colours));
-        }
-        self.coloured = coloured;
+    fn use_survey(&mut self, survey: Survey, listed: Option<Grouping>) {
+        self.lists = survey.lists;
+        self.shown = survey.shown;
+        (self.shown_counts, self.counted) = (survey.shown_counts, listed);
+        (self.colours, self.coloured) = (survey.colours, self.choice.coloured());
+        self.is_stale = false;
+        self.recolour();
+        self.make_change();
     }
 
     /// The primitives that are to be shown.
@@ -161,7 +184,8 @@ impl Parts {
 
     /// Notes that the picture shows the choice.
     pub fn note_applied(&mut self) {
-        if self.applied.0 != self.choice || self.applied.1 != self.shown {
+        let is_news = self.applied.0 != self.choice || self.applied.1 != self.shown;
+        if is_news && !self.is_stale {
             self.applied = (self.choice.clone(), self.shown.clone());
         }
     }
@@ -180,8 +204,8 @@ impl Parts {
         self.colours.as_ref()
     }
 
-    fn listed(&self) -> Option<&PartList> {
-        self.lists[self.grouping as usize].as_deref()
+    fn listed(&self) -> Option<&Arc<PartList>> {
+        self.lists[self.grouping as usize].as_ref()
     }
 
     fn key(&self, part: usize) -> Option<PartKey> {
@@ -191,9 +215,10 @@ impl Parts {
     /// Whether a part is shown; `None` if some of its primitives are.
     pub fn is_shown(&self, part: usize) -> Option<bool> {
         let count = self.listed().map_or(0, |list| list.parts[part].count);
-        match self.shown_counts.get(part).copied() {
+        let counted = self.counted == Some(self.grouping);
+        match self.shown_counts.get(part).filter(|_| counted) {
             Some(0) => Some(false),
-            Some(shown) if shown < count => None,
+            Some(&shown) if shown < count => None,
             _ => Some(true),
         }
     }
@@ -209,6 +234,25 @@ impl Parts {
     pub fn show_only(&mut self, part: usize) {
         if let Some(key) = self.key(part) {
             self.change(|choice| choice.show_only(&key));
+        }
+    }
+
+    /// Changes the part of a primitive, once the parts are listed.
+    pub fn change_part_of(&mut self, primitive: u32, change: PartChange) {
+        (self.change, self.wants_list) = (Some((change, primitive)), true);
+        self.make_change();
+    }
+
+    fn make_change(&mut self) {
+        let Some(list) = self.listed().map(Arc::clone) else {
+            return;
+        };
+        if let Some((change, primitive)) = self.change.take() {
+            let part = list.part_of(primitive);
+            match change {
+                PartChange::Hide => self.show(part, false),
+                PartChange::ShowOnly => self.show_only(part),
+            }
         }
     }
 
@@ -234,23 +278,13 @@ impl Parts {
         }
     }
 
-    fn count(&mut self, list: &PartList) {
-        self.counted = Some(self.grouping);
-        let Some(flags) = &self.shown.0 else {
-            self.shown_counts = list.parts.iter().map(|part| part.count).collect();
-            return;
+    /// The numbers of the listed parts whose names contain the filter's text, as far as they are known.
+    pub fn matching(&mut self, ctx: &egui::Context) -> Matches {
+        let Some(list) = self.listed().map(Arc::clone) else {
+            return Matches::All(0);
         };
-        self.shown_counts = vec![0; list.parts.len()];
-        for (part, &is_shown) in list.all().zip(&**flags) {
-            self.shown_counts[part] += usize::from(is_shown);
-        }
+        self.search.matches(&list, &self.filter, ctx)
     }
-}
-
-/// The value of each part of a list that has one.
-fn of_parts<T: Copy>(list: &PartList, of_keys: &HashMap<&PartKey, T>) -> Vec<Option<T>> {
-    let value = |part: &Part| of_keys.get(&part.key).copied();
-    list.parts.iter().map(value).collect()
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! A picked pixel as plain data.
 
+use crate::comparison::Side;
 use glam::{DMat3, DVec3, UVec2};
 use hitscope_core::Camera;
 use hitscope_core::camera::Projection;
@@ -23,6 +24,9 @@ pub struct PickedPixel {
     /// The crossing that is marked instead of the hit, counted from 0.
     #[serde(default)]
     pub crossing: Option<usize>,
+    /// The side of a comparison whose picture was clicked.
+    #[serde(default)]
+    pub side: Side,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,7 +37,7 @@ enum PickProjection {
 }
 
 impl PickedPixel {
-    /// A pixel of a camera's picture in a scene with this origin.
+    /// A pixel of side A, by the camera of its picture, in a scene with this origin.
     pub fn new(camera: &Camera, pixel: UVec2, crossing: Option<usize>, origin: DVec3) -> Self {
         Self {
             origin: origin.to_array(),
@@ -50,7 +54,14 @@ impl PickedPixel {
             size: camera.resolution().to_array(),
             pixel: pixel.to_array(),
             crossing,
+            side: Side::A,
         }
+    }
+
+    /// The same pixel on a side of a comparison.
+    #[must_use]
+    pub fn on(self, side: Side) -> Self {
+        Self { side, ..self }
     }
 
     /// The pixel.

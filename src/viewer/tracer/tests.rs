@@ -3,6 +3,7 @@
 mod lit;
 
 use super::pacing::{FIRST_PASS, FRAME};
+use super::pausing::REST;
 use super::*;
 use glam::DVec3;
 use hitscope_core::camera::Projection;

@@ -88,7 +88,7 @@ fn a_missing_or_broken_file_is_reported_with_the_line_that_names_it() {
 #[test]
 fn scenes_without_size_have_no_warning_about_it() {
     let warnings = |contents: &str| -> Vec<String> {
-        let warnings = loaded(contents).report.warnings;
+        let warnings = loaded(contents).report.warnings.clone();
         warnings.iter().map(ToString::to_string).collect()
     };
     assert!(warnings("<shape type='plane'/>").is_empty());

@@ -4,7 +4,7 @@ use super::loaded;
 
 /// The warnings about a scene file, after their lines.
 fn warnings(contents: &str) -> Vec<(Option<usize>, String)> {
-    let warnings = loaded(contents).report.warnings.into_iter();
+    let warnings = loaded(contents).report.warnings.clone().into_iter();
     warnings
         .map(|warning| (warning.line, warning.message))
         .collect()

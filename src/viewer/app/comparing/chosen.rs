@@ -37,6 +37,14 @@ impl App {
         self.preferences.tab = Tab::Compare;
     }
 
+    /// Rasterizes side A, or traces it again. Starts a comparison if there is none.
+    pub(crate) fn toggle_rasterized_a(&mut self) {
+        let comparison = &mut self.seen.comparison;
+        comparison.is_a_rasterized = !(comparison.is_on && comparison.is_a_rasterized);
+        comparison.is_on = true;
+        self.preferences.tab = Tab::Compare;
+    }
+
     /// Exchanges view, kernel and shading of both sides.
     pub(crate) fn swap_sides(&mut self) {
         self.seen.comparison.swap(&mut self.seen.settings);
@@ -49,8 +57,9 @@ impl App {
 
     /// Why the sides can't be swapped; `None` if they can.
     pub(crate) fn lacks_swap(&self) -> Option<&'static str> {
-        let is_same_scene = self.seen.comparison.source == Source::Traced;
-        let obstacle = "Only traced pictures of the open scene can be swapped";
+        let source = self.seen.comparison.source;
+        let is_same_scene = matches!(source, Source::Traced | Source::Rasterized);
+        let obstacle = "Only pictures of the open scene can be swapped";
         self.lacks_comparison()
             .or((!is_same_scene).then_some(obstacle))
     }
@@ -59,7 +68,7 @@ impl App {
     pub(in crate::app) fn compare_with_mesh(&mut self, path: PathBuf) {
         self.seen.comparison.mesh_file = Some(path);
         // Reloads a file that may have changed.
-        self.compared.mesh = None;
+        self.compared.drop_mesh();
         self.compare_with(Source::Mesh);
     }
 
@@ -83,11 +92,14 @@ impl App {
         let looks = format!("{view}, {kernel}, {shading}");
         let comparison = &self.seen.comparison;
         match (side, comparison.source) {
+            (Side::A, _) if self.rasterizes_a() => {
+                let view = Rasterized::title_of(settings.view());
+                format!("A: {view}, rasterized, {shading}")
+            }
             (Side::A, _) => format!("A: {looks}"),
             (Side::B, Source::Traced) => format!("B: {looks}"),
             (Side::B, Source::Rasterized) => {
-                let view = Rasterized::views().find(|known| known.name == settings.view().name);
-                let view = view.map_or("Shaded", |view| view.title);
+                let view = Rasterized::title_of(settings.view());
                 format!("B: {view}, rasterized, {shading}")
             }
             (Side::B, Source::Mesh) => match &comparison.mesh_file {
@@ -108,7 +120,7 @@ impl App {
     /// Shows the tab.
     pub(in crate::app) fn compare_tab_ui(&mut self, ui: &mut egui::Ui, commands: &Commands) {
         let scene = &self.open.document.loaded.scene;
-        let is_rasterized = self.seen.comparison.source == Source::Rasterized;
+        let is_rasterized = self.seen.comparison.has_rasterized();
         let mut comparison = self.seen.comparison.clone();
         let mut of_a = self.seen.settings.clone();
         let view = CompareView {
@@ -132,7 +144,7 @@ impl App {
 
     /// Width and height of both sides, if they differ.
     fn sizes(&self) -> Option<[glam::UVec2; 2]> {
-        let a = self.traced.tracer.film().size();
+        let (a, _) = self.pixels_of_a()?;
         let (b, _) = self.compared.pixels()?;
         (a != b).then_some([a, b])
     }

@@ -26,10 +26,11 @@ impl App {
         }
     }
 
-    /// Whether side A is shown at a position on the screen.
+    /// Whether the traced picture of side A is shown at a position on the screen.
     pub(in crate::app) fn shows_a_at(&self, pos: Pos2, canvas: Canvas) -> bool {
         match self.seen.comparison.mode {
             _ if !self.is_comparing() => true,
+            _ if self.rasterizes_a() => false,
             Mode::A => true,
             Mode::Wipe => pos.x < self.divider_x(canvas),
             Mode::B | Mode::Difference | Mode::Distance => false,
@@ -75,6 +76,14 @@ impl App {
         Some(point + document.origin() - self.open.document.origin())
     }
 
+    /// The document of a side, if it is traced.
+    pub(in crate::app) fn traced_document_of(&self, side: Side) -> Option<&Document> {
+        match side {
+            Side::A => Some(&self.open.document),
+            Side::B => self.traced_document_of_b(),
+        }
+    }
+
     /// The document of side B, if it is traced.
     fn traced_document_of_b(&self) -> Option<&Document> {
         let is_traced = self.is_comparing() && self.compared.source.is_traced();
@@ -113,9 +122,9 @@ impl App {
         of_b.unwrap_or(&self.open.document)
     }
 
-    /// The document whose file contains the inspected mesh; `None` if that file has changed.
-    pub(in crate::app) fn file_of_pick(&self) -> Option<&Document> {
-        match (self.inspected_side(), self.compared.source) {
+    /// The document whose file contains the mesh of a side; `None` if that file has changed.
+    pub(in crate::app) fn file_of(&self, side: Side) -> Option<&Document> {
+        match (side, self.compared.source) {
             (Side::B, Source::Earlier) => None,
             (Side::B, Source::Mesh) => Some(self.document_of(Side::B)),
             _ => Some(&self.open.document),
@@ -135,10 +144,47 @@ impl App {
         }
     }
 
-    /// Clears a pick on side B, whose scene has been replaced.
-    pub(super) fn forget_other_pick(&mut self) {
+    /// Inspects a pick on side B again, whose scene has been replaced.
+    pub(super) fn pick_again_on_b(&mut self, ctx: &egui::Context) {
         if self.picked.side == Side::B {
-            self.picked.clear_pick();
+            self.pick_again(DVec3::ZERO, ctx);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::app::App;
+    use crate::harness::{app, click, in_picture, settle, wait, write};
+
+    /// A square at a depth.
+    fn square(z: f64) -> String {
+        format!("v -1 -1 {z}\nv 1 -1 {z}\nv 1 1 {z}\nv -1 1 {z}\nf 1 2 3 4\n")
+    }
+
+    fn hits_at(app: &App, z: f64) -> bool {
+        let hit = app.inspection().and_then(|found| found.hit.as_ref());
+        hit.is_some_and(|hit| (hit.position[2] - z).abs() < 1e-5)
+    }
+
+    #[test]
+    fn a_pick_on_side_b_stays_when_its_file_is_loaded_again() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let first = write(&folder, "first.obj", &square(0.0));
+        let second = write(&folder, "second.obj", &square(-0.25));
+        let Some(mut window) = app(Some(first)) else {
+            return;
+        };
+        settle(&mut window, "first.obj");
+        window.state_mut().compare_with_mesh(second.clone());
+        window.run_steps(3);
+        wait(&mut window, "both sides", App::is_settled);
+        window.run_steps(3);
+        let at = in_picture(&window, 0.55, 0.5);
+        click(&mut window, at);
+        wait(&mut window, "side B", |app| hits_at(app, -0.25));
+        write(&folder, "second.obj", &square(-0.5));
+        window.state_mut().compare_with_mesh(second);
+        wait(&mut window, "side B again", |app| hits_at(app, -0.5));
     }
 }

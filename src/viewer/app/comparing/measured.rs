@@ -11,6 +11,7 @@ use glam::UVec2;
 use hitscope_core::colour::ColourScale;
 use hitscope_core::picture::PictureEncoding;
 use hitscope_core::srgb::from_texel;
+use rayon::prelude::*;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -91,7 +92,8 @@ impl App {
         let left = since.map_or(Duration::ZERO, |since| {
             INTERVAL.saturating_sub(since.elapsed())
         });
-        let is_final = self.traced.tracer.is_finished() && self.are_sides_settled();
+        let is_a_final = self.rasterizes_a() || self.traced.tracer.is_finished();
+        let is_final = is_a_final && self.are_sides_settled();
         if !is_final && left > Duration::ZERO {
             ctx.request_repaint_after(left);
             return;
@@ -116,18 +118,17 @@ impl App {
     fn compared_pictures(&self) -> Option<ComparedPictures> {
         let film = self.traced.tracer.film();
         let (size, b) = self.compared.pixels()?;
-        if size != film.size() || film.passes_done() == 0 {
-            return None;
-        }
-        let a = self.traced.development.pixels(film);
+        let (_, a) = self.pixels_of_a().filter(|(of_a, _)| *of_a == size)?;
         let reference = self.compared.reference.picture();
         let (a, b) = match reference.filter(|_| self.compared.source == Source::Picture) {
-            Some(picture) if picture.encoding == PictureEncoding::Linear => {
-                let pixel = |(index, &[r, g, b, _]): (u32, &[u8; 4])| {
-                    let at = UVec2::new(index % size.x, index / size.x);
+            Some(picture)
+                if picture.encoding == PictureEncoding::Linear && !self.rasterizes_a() =>
+            {
+                let pixel = |(index, &[r, g, b, _]): (usize, &[u8; 4])| {
+                    let at = UVec2::new(index as u32 % size.x, index as u32 / size.x);
                     film.radiance(at).unwrap_or_else(|| from_texel([r, g, b]))
                 };
-                let linear = (0..).zip(film.pixels()).map(pixel);
+                let linear = film.pixels().par_iter().enumerate().map(pixel);
                 (
                     Pixels::Linear(linear.collect()),
                     Pixels::File(Arc::clone(picture)),
@@ -139,13 +140,11 @@ impl App {
             ),
             None => (Pixels::Display(a.to_vec()), Pixels::Display(b.to_vec())),
         };
-        let is_rasterized = self.compared.source == Source::Rasterized;
-        let rasterized = self.compared.rasterized.picture();
         Some(ComparedPictures {
             size,
             a,
             b,
-            rasterized: rasterized.filter(|_| is_rasterized).cloned(),
+            visibility: self.visibility(),
         })
     }
 
@@ -285,9 +284,7 @@ impl App {
 
     /// Whether both pictures exist and have the same size.
     fn is_comparable(&self) -> bool {
-        let size = self.traced.tracer.film().size();
-        self.compared
-            .pixels()
-            .is_some_and(|(other, _)| other == size)
+        let sides = self.pixels_of_a().zip(self.compared.pixels());
+        sides.is_some_and(|((a, _), (b, _))| a == b)
     }
 }

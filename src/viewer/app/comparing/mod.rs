@@ -5,6 +5,7 @@
 //! | this file | [`Compared`], the owner of side B |
 //! | `sides` | the documents of side B; tracing and rasterizing them |
 //! | `screen` | drawing side B, the divider and the difference |
+//! | `rasterized_side` | a side A that is rasterized |
 //! | `measured` | figures of the differences, distances, the distance map |
 //! | `inspected` | inspection of side B |
 //! | `chosen` | the commands, and the tab *Compare* |
@@ -12,14 +13,16 @@
 mod chosen;
 mod inspected;
 mod measured;
+mod rasterized_side;
 mod screen;
 mod sides;
 
 use super::App;
-use super::light::SceneLights;
+use super::scene_lights::SceneLights;
 use crate::comparison::{Rasterized, Reference, Source, TracedSide};
 use crate::document::Document;
 use crate::opening::Loading;
+use crate::retired::Retired;
 use crate::settings::Settings;
 use eframe::egui_wgpu::RenderState;
 use measured::Measured;
@@ -37,10 +40,14 @@ pub(crate) struct Compared {
     mesh: Option<Document>,
     /// The open file before it was last reloaded.
     earlier: Option<Document>,
+    /// Documents that were dropped.
+    retired: Retired,
     loading: Option<Loading>,
-    lights: Option<SceneLights>,
+    lights: SceneLights,
     traced: Option<TracedSide>,
     rasterized: Rasterized,
+    /// Side A, if it is rasterized.
+    rasterized_a: Rasterized,
     reference: Reference,
     screen: Screen,
     measured: Measured,
@@ -53,10 +60,12 @@ impl Compared {
             sibling: None,
             mesh: None,
             earlier: None,
+            retired: Retired::default(),
             loading: None,
-            lights: None,
+            lights: SceneLights::default(),
             traced: None,
             rasterized: Rasterized::new(&render_state.device, &render_state.queue),
+            rasterized_a: Rasterized::new(&render_state.device, &render_state.queue),
             reference: Reference::default(),
             screen: Screen::default(),
             measured: Measured::default(),
@@ -83,12 +92,22 @@ impl Compared {
         }
     }
 
+    /// Drops the rasterized picture of side A.
+    fn clear_a(&mut self) {
+        self.rasterized_a = Rasterized::new(&self.render_state.device, &self.render_state.queue);
+        self.screen.clear_a();
+    }
+
     /// Drops side B, except for an earlier version, which couldn't be loaded again.
     fn clear(&mut self) {
         if let Some(loading) = self.loading.take() {
             loading.cancel();
         }
-        (self.sibling, self.mesh, self.lights) = (None, None, None);
+        self.drop_mesh();
+        if let Some(sibling) = self.sibling.take() {
+            self.retired.add(sibling);
+        }
+        self.lights = SceneLights::default();
         if let Some(mut side) = self.traced.take() {
             side.tracer.stop();
             // Dropping waits until the last rays are traced, so another thread does it, if one can be started.
@@ -96,7 +115,7 @@ impl Compared {
             _ = end.spawn(move || drop(side));
         }
         self.rasterized = Rasterized::new(&self.render_state.device, &self.render_state.queue);
-        self.reference = Reference::default();
+        self.retired.add(std::mem::take(&mut self.reference));
         (self.screen, self.measured) = (Screen::default(), Measured::default());
     }
 
@@ -105,14 +124,30 @@ impl Compared {
         let has_document = self.sibling.is_some() || self.mesh.is_some();
         let has_picture = self.traced.is_some() || self.screen.has_picture();
         let has_reference = self.reference.picture().is_some();
-        !has_document && !has_picture && !has_reference && self.loading.is_none()
+        let has_a = !self.rasterized_a.is_unused();
+        !has_document && !has_picture && !has_reference && !has_a && self.loading.is_none()
     }
 
-    /// Keeps the document that a reload replaced; drops it if another file was opened.
-    pub fn keep_earlier(&mut self, old: Document, is_same_file: bool) {
-        let is_version = is_same_file && old.path.is_some();
+    /// Keeps the document that a reload replaced. Returns the one that isn't needed any longer: the version before it; the
+    /// document itself, if another file was opened.
+    pub fn keep_earlier(&mut self, old: Document, is_same_file: bool) -> Option<Document> {
         old.stop_improving();
-        self.earlier = is_version.then_some(old);
+        let before = self.earlier.take();
+        if is_same_file && old.path.is_some() {
+            self.earlier = Some(old);
+            return before;
+        }
+        before
+            .into_iter()
+            .for_each(|before| self.retired.add(before));
+        Some(old)
+    }
+
+    /// Drops the document of another file.
+    fn drop_mesh(&mut self) {
+        if let Some(mesh) = self.mesh.take() {
+            self.retired.add(mesh);
+        }
     }
 
     /// Time since packing of side B for its kernel began; `None` if it isn't running.
@@ -142,6 +177,11 @@ impl App {
         self.seen.comparison.is_on && !self.open.document.is_blank
     }
 
+    /// Whether side A is rasterized.
+    pub(crate) fn rasterizes_a(&self) -> bool {
+        self.is_comparing() && self.seen.comparison.is_a_rasterized
+    }
+
     /// The settings of side B; those of side A while nothing is compared.
     pub(super) fn other_settings(&self) -> Settings {
         let settings = &self.seen.settings;
@@ -154,9 +194,11 @@ impl App {
 
     /// Collects results of background work.
     pub(super) fn poll_comparison(&mut self, ctx: &egui::Context) {
+        self.compared.retired.poll(ctx);
         if !self.is_comparing() {
             if !self.compared.is_idle() {
                 self.compared.clear();
+                self.compared.clear_a();
             }
             return;
         }

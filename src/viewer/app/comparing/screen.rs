@@ -22,6 +22,8 @@ const MARGIN: f32 = 8.0;
 /// The GPU pictures of side B, the difference and the distance map.
 #[derive(Default)]
 pub(super) struct Screen {
+    /// Side A, if it is rasterized.
+    a: Option<Picture>,
     other: Option<Picture>,
     difference: Option<Picture>,
     map: Option<Picture>,
@@ -29,13 +31,41 @@ pub(super) struct Screen {
     pub changes: [u64; 2],
     /// The changes and the gain that the difference shows.
     difference_of: Option<([u64; 2], f32)>,
-    /// The rasterized picture that is drawn.
+    /// The rasterized pictures of side A and of side B that are drawn.
+    rasterized_a: Option<Arc<RasterizedPicture>>,
     rasterized: Option<Arc<RasterizedPicture>>,
 }
 
 impl Screen {
     pub fn has_picture(&self) -> bool {
         self.other.is_some()
+    }
+
+    /// The rasterized picture of side A that is drawn.
+    pub fn rasterized_a(&self) -> Option<&Arc<RasterizedPicture>> {
+        self.rasterized_a.as_ref()
+    }
+
+    /// Uploads a rasterized picture of side A. Returns whether it is a new one.
+    pub fn upload_a(
+        &mut self,
+        render_state: &eframe::egui_wgpu::RenderState,
+        newest: &Arc<RasterizedPicture>,
+    ) -> Result<bool, GpuError> {
+        let is_known = |known: &Arc<_>| Arc::ptr_eq(known, newest);
+        if self.rasterized_a.as_ref().is_some_and(is_known) {
+            return Ok(false);
+        }
+        let size = newest.request.context.camera.resolution();
+        let picture = self.a.get_or_insert_with(|| Picture::new(render_state));
+        picture.upload(size, &newest.pixels, whole(size))?;
+        self.rasterized_a = Some(Arc::clone(newest));
+        Ok(true)
+    }
+
+    /// Drops the rasterized picture of side A.
+    pub fn clear_a(&mut self) {
+        (self.a, self.rasterized_a) = (None, None);
     }
 
     /// Uploads a distance map.
@@ -50,6 +80,14 @@ impl Screen {
     }
 }
 
+/// A picture of the differences.
+struct Difference {
+    /// The changes of both sides, and the gain.
+    of: ([u64; 2], f32),
+    /// Width and height, and the pixels; `None` while the sizes of the sides differ.
+    picture: Option<(UVec2, Vec<[u8; 4]>)>,
+}
+
 fn whole(size: UVec2) -> PixelRect {
     PixelRect {
         min: UVec2::ZERO,
@@ -59,7 +97,12 @@ fn whole(size: UVec2) -> PixelRect {
 
 impl Compared {
     /// Uploads what has changed of side B. Returns whether anything has.
-    fn upload(&mut self, look: Look, display: Display) -> Result<bool, GpuError> {
+    fn upload(
+        &mut self,
+        look: Look,
+        display: Display,
+        ctx: &egui::Context,
+    ) -> Result<bool, GpuError> {
         let (screen, render_state) = (&mut self.screen, &self.render_state);
         let other = &mut screen.other;
         let picture = || Picture::new(render_state);
@@ -86,15 +129,23 @@ impl Compared {
                 Ok(is_new)
             }
             Source::Picture => {
-                let is_new = self.reference.develop(display);
+                // A panic has been printed to the terminal, and the old pixels stay.
+                let is_new = self.reference.develop(display, ctx).unwrap_or(false);
                 let size = self.reference.picture().map(|picture| picture.size);
-                if let (true, Some(size)) = (is_new, size) {
+                let pixels = size.zip(self.reference.pixels());
+                if let (true, Some((size, pixels))) = (is_new, pixels) {
                     let other = other.get_or_insert_with(picture);
-                    other.upload(size, self.reference.pixels(), whole(size))?;
+                    other.upload(size, pixels, whole(size))?;
                 }
                 Ok(is_new)
             }
         }
+    }
+
+    /// The rasterized picture of side B that is drawn.
+    pub(super) fn rasterized_picture_of_b(&self) -> Option<&Arc<RasterizedPicture>> {
+        let is_rasterized = self.source == Source::Rasterized;
+        self.screen.rasterized.as_ref().filter(|_| is_rasterized)
     }
 
     /// Width and height of side B, and its pixels as they were uploaded; `None` before the first ones.
@@ -112,37 +163,42 @@ impl Compared {
             }
             Source::Picture => {
                 let size = self.reference.picture()?.size;
-                Some((size, self.reference.pixels()))
+                Some((size, self.reference.pixels()?))
             }
         }
     }
 
-    /// Updates the difference if a side or the gain has changed. There is none while the sizes differ.
-    fn update_difference(
-        &mut self,
-        (size, a): (UVec2, &[[u8; 4]]),
-        gain: f32,
-    ) -> Result<(), GpuError> {
-        let wanted = (self.screen.changes, gain);
-        if self.screen.difference_of == Some(wanted) {
+    /// Uploads the difference, if it has changed. There is none while the sizes differ.
+    fn upload_difference(&mut self, difference: Option<Difference>) -> Result<(), GpuError> {
+        let Some(Difference { of, picture }) = difference else {
             return Ok(());
-        }
-        let difference = match self.pixels() {
-            Some((other, b)) if other == size => difference_picture(a, b, gain),
-            _ => {
-                self.screen.difference = None;
-                return Ok(());
-            }
+        };
+        let Some((size, pixels)) = picture else {
+            self.screen.difference = None;
+            return Ok(());
         };
         let render_state = &self.render_state;
         let picture = (self.screen.difference).get_or_insert_with(|| Picture::new(render_state));
-        picture.upload(size, &difference, whole(size))?;
-        self.screen.difference_of = Some(wanted);
+        picture.upload(size, &pixels, whole(size))?;
+        self.screen.difference_of = Some(of);
         Ok(())
     }
 }
 
 impl App {
+    /// The difference, if a side or the gain has changed.
+    fn changed_difference(&self) -> Option<Difference> {
+        let (screen, gain) = (&self.compared.screen, self.seen.comparison.gain);
+        let of = (screen.changes, gain);
+        if screen.difference_of == Some(of) {
+            return None;
+        }
+        let sides = self.pixels_of_a().zip(self.compared.pixels());
+        let sides = sides.filter(|((size, _), (other, _))| size == other);
+        let picture = sides.map(|((size, a), (_, b))| (size, difference_picture(a, b, gain)));
+        Some(Difference { of, picture })
+    }
+
     /// Whether a comparison is shown in this mode.
     pub(in crate::app) fn shows(&self, mode: Mode) -> bool {
         self.is_comparing() && self.seen.comparison.mode == mode
@@ -166,8 +222,11 @@ impl App {
         (x * canvas.pixels_per_point).round() / canvas.pixels_per_point
     }
 
-    /// Counts a change of side A on the screen.
+    /// Counts a change of the traced side A on the screen.
     pub(in crate::app) fn note_change_of_a(&mut self, ctx: &egui::Context) {
+        if self.rasterizes_a() {
+            return;
+        }
         self.compared.screen.changes[0] += 1;
         self.ask_for_figures(ctx);
     }
@@ -191,7 +250,10 @@ impl App {
         } else {
             Display::default()
         };
-        match self.compared.upload(look, display) {
+        if let Err(error) = self.update_rasterized_a(ui.ctx()) {
+            return self.end_comparison(&error);
+        }
+        match self.compared.upload(look, display, ui.ctx()) {
             Ok(false) => {}
             Ok(true) => {
                 self.compared.screen.changes[1] += 1;
@@ -200,13 +262,13 @@ impl App {
             Err(error) => return self.end_comparison(&error),
         }
         if self.shows(Mode::Difference) {
-            let film = self.traced.tracer.film();
-            let a = (film.size(), self.traced.development.pixels(film));
-            let gain = self.seen.comparison.gain;
-            if let Err(error) = self.compared.update_difference(a, gain) {
+            let difference = self.changed_difference();
+            if let Err(error) = self.compared.upload_difference(difference) {
                 return self.end_comparison(&error);
             }
         }
+        ui.painter_at(canvas.rect)
+            .extend(self.shape_of_a(canvas, overlay));
         let shape = self.shape_of_other(canvas, overlay);
         let mut rect = canvas.rect;
         if self.shows(Mode::Wipe) {
@@ -220,6 +282,14 @@ impl App {
     pub(super) fn end_comparison(&mut self, error: &GpuError) {
         self.seen.comparison.is_on = false;
         self.error(error);
+    }
+
+    /// The shape of a rasterized side A, which replaces the traced picture; `None` until there is one, and if the mode
+    /// doesn't show side A.
+    fn shape_of_a(&mut self, canvas: Canvas, overlay: Option<&wgpu::Texture>) -> Option<Shape> {
+        let is_shown = self.rasterizes_a() && (self.shows(Mode::A) || self.shows(Mode::Wipe));
+        let picture = self.compared.screen.a.as_mut().filter(|_| is_shown)?;
+        picture.shape(canvas.rect, canvas.part, overlay)
     }
 
     /// The shape that the mode shows instead of side A; `None` for side A itself, and until there is a picture.

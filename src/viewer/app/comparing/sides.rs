@@ -96,14 +96,15 @@ impl App {
         if !self.is_comparing() || self.seen.comparison.source != self.compared.source {
             return;
         }
+        self.request_rasterized_a(ctx);
         let settings = self.other_settings();
-        let kept = self.compared.lights.take();
+        let mut lights = std::mem::take(&mut self.compared.lights);
         let posted = self.traced.tracer.posted();
         let Some((document, posted)) = self.compared.document().zip(posted) else {
             return;
         };
         let camera = self.camera_in(document, posted.context.camera);
-        let (lighting, lights) = self.lighting(&settings, &document.loaded, kept);
+        let lighting = self.lighting(&settings, &document.loaded, &mut lights, ctx);
         let request = self.request_of(document, &settings, camera, lighting, ctx.theme());
         let compared = &mut self.compared;
         compared.lights = lights;
@@ -123,6 +124,7 @@ impl App {
         self.poll_mesh(ctx);
         let mut messages = Vec::new();
         if let Some(document) = self.compared.document_mut() {
+            document.poll_retired(ctx);
             let broken = [
                 document.poll_kernel(),
                 document.poll_second(),
@@ -131,6 +133,8 @@ impl App {
             let broken = broken.into_iter().filter_map(Result::err);
             messages.extend(broken.map(|broken| broken.to_string()));
         }
+        let lights = self.compared.lights.poll();
+        messages.extend(lights.err().map(|panicked| panicked.to_string()));
         let (limits, is_paused) = (self.limits(), self.traced.tracer.is_paused());
         if let Some(side) = &mut self.compared.traced {
             side.tracer.set_limits(limits);
@@ -140,14 +144,23 @@ impl App {
             let panics = side.tracer.collect(ctx);
             messages.extend(panics.first().map(ToString::to_string));
         }
-        messages.extend(self.compared.rasterized.poll(ctx).err());
+        let rasterized = [
+            &mut self.compared.rasterized_a,
+            &mut self.compared.rasterized,
+        ];
+        messages.extend(
+            rasterized
+                .into_iter()
+                .filter_map(|side| side.poll(ctx).err()),
+        );
         let longest = self
             .compared
             .render_state
             .device
             .limits()
             .max_texture_dimension_2d;
-        if let Err(message) = self.compared.reference.poll(longest) {
+        let compared = &mut self.compared;
+        if let Err(message) = compared.reference.poll(longest, &mut compared.retired) {
             self.seen.comparison.picture_file = None;
             messages.push(message);
         }
@@ -171,8 +184,9 @@ impl App {
         match loaded {
             Ok(mut document) => {
                 document.improve(ctx);
+                self.compared.drop_mesh();
                 self.compared.mesh = Some(document);
-                self.forget_other_pick();
+                self.pick_again_on_b(ctx);
             }
             Err(message) => {
                 self.seen.comparison.mesh_file = None;
@@ -186,12 +200,16 @@ impl App {
     /// Whether side B is complete, or there is nothing to wait for.
     pub(super) fn are_sides_settled(&self) -> bool {
         let (compared, comparison) = (&self.compared, &self.seen.comparison);
-        if compared.source != comparison.source || compared.loading.is_some() {
+        if compared.source != comparison.source
+            || compared.loading.is_some()
+            || compared.lights.is_pending()
+            || (self.rasterizes_a() && !self.is_rasterized_a_finished())
+        {
             return false;
         }
         match compared.source {
             Source::Rasterized => compared.rasterized.is_finished(),
-            Source::Picture => !compared.reference.is_loading(),
+            Source::Picture => !compared.reference.is_pending(),
             Source::Mesh if comparison.mesh_file.is_none() => true,
             Source::Earlier if compared.earlier.is_none() => true,
             Source::Traced | Source::Mesh | Source::Earlier => {

@@ -1,10 +1,12 @@
 //! Going to an element that the user names: the camera frames it, and it is picked.
 
 use crate::app::App;
+use crate::comparison::Side;
 use crate::face_lookup::open_again;
 use crate::task::{Task, TaskPanicked};
 use glam::UVec2;
 use hitscope_core::Camera;
+use hitscope_core::film::ShownPixel;
 use hitscope_core::mesh::ElementPlace;
 use hitscope_lab::element::{Element, Rereadable};
 use std::path::Path;
@@ -109,7 +111,7 @@ impl App {
             return;
         };
         let pixel = pixel.as_uvec2().min(self.shown.resolution - 1);
-        self.pick_pixel(camera, pixel, true, ctx);
+        self.pick_pixel(Side::A, ShownPixel { camera, pixel }, true, ctx);
         self.picked.inspecting.journey = Some(Journey::Picking(element, camera, pixel));
     }
 }

@@ -35,6 +35,19 @@ struct HoverKey {
     /// The request, with the camera of the pixel on the screen.
     request: Request,
     pixel: UVec2,
+    /// Whether the normals that the view needs are computed. This thread doesn't wait for them.
+    has_normals: bool,
+}
+
+impl HoverKey {
+    fn new(request: Request, pixel: UVec2) -> Self {
+        let needs_normals = request.integrator.needs.vertex_normals;
+        Self {
+            has_normals: !needs_normals || request.context.scene.has_vertex_normals(),
+            request,
+            pixel,
+        }
+    }
 }
 
 impl Hover {
@@ -67,14 +80,16 @@ impl App {
                     return None;
                 }
                 request.context.camera = camera;
-                Some(HoverKey { request, pixel })
+                Some(HoverKey::new(request, pixel))
             });
         let Some(key) = key else {
             self.picked.inspecting.hover.last = None;
             return;
         };
         let is_known = |(known, _): &(HoverKey, String)| {
-            known.pixel == key.pixel && known.request == key.request
+            known.pixel == key.pixel
+                && known.has_normals == key.has_normals
+                && known.request == key.request
         };
         if !self
             .picked
@@ -94,7 +109,7 @@ impl App {
         let ShownPixel { camera, pixel } = self.shown_by_b(pos, canvas)?;
         let mut request = self.request_on_b()?;
         request.context.camera = camera;
-        Some(HoverKey { request, pixel })
+        Some(HoverKey::new(request, pixel))
     }
 
     /// Whether the read-out under the pointer is on.
@@ -121,7 +136,9 @@ fn read_out(key: &HoverKey) -> String {
         parts.extend(element(&context.scene, &hit));
     }
     let mut sampler = Sampler::new(key.pixel, 0);
-    if let Some(number) = view.number(context, &ray, hit, &mut sampler) {
+    if key.has_normals
+        && let Some(number) = view.number(context, &ray, hit, &mut sampler)
+    {
         let unit = match view.scale(context) {
             Ok(Some(scale)) => scale.unit().to_owned(),
             _ => String::new(),
@@ -149,9 +166,40 @@ fn element(scene: &Scene, hit: &Hit) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::harness::{app_with, wait};
+    use crate::settings::Settings;
     use glam::Vec3;
     use hitscope_core::TriangleMesh;
+    use hitscope_core::mesh::Crease;
     use hitscope_core::mesh::{Assigned, Attributes, Runs};
+    use std::sync::Arc;
+
+    #[test]
+    fn the_read_out_does_not_compute_normals() {
+        let mut settings = Settings::default();
+        settings.keep_view("interpolation");
+        let Some(mut window) = app_with(settings) else {
+            return;
+        };
+        wait(&mut window, "the picture", App::is_settled);
+        let app = window.state();
+        let mut request = app.traced.tracer.posted().expect("a picture").clone();
+        let size = app.film().size();
+        let all = (0..size.element_product()).map(|k| UVec2::new(k % size.x, k / size.x));
+        let text = |request: &Request, pixel| read_out(&HoverKey::new(request.clone(), pixel));
+        let shows = |text: &str| text.contains("Interpolation");
+        let on_knot = all
+            .into_iter()
+            .step_by(97)
+            .find(|pixel| shows(&text(&request, *pixel)));
+        let on_knot = on_knot.expect("a pixel with an angle");
+        let scene = Arc::new(request.context.scene.with_crease(Crease::Above(1.0)));
+        request.context.scene = Arc::clone(&scene);
+        assert!(!shows(&text(&request, on_knot)));
+        assert!(!scene.has_vertex_normals());
+        scene.vertex_normals();
+        assert!(HoverKey::new(request, on_knot).has_normals);
+    }
 
     #[test]
     fn a_group_without_a_name_leaves_no_empty_field() {

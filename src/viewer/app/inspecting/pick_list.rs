@@ -1,13 +1,13 @@
 //! The state of the list of picks, and what is known about them.
 
+use crate::comparison::Side;
 use crate::measuring::{MeasuredPoint, Measurements};
 use crate::picks::{PickedPixel, PickedPoint, Snapping};
 use crate::task::{KeyedTask, Task};
 use glam::{DVec3, UVec2};
 use hitscope_core::bvh::OpenedBox;
-use hitscope_core::mesh::Crease;
 use hitscope_core::scene::Shading;
-use hitscope_core::{Aabb, Camera, Scene};
+use hitscope_core::{Aabb, Camera, Intersector, Scene};
 use hitscope_lab::inspection::ThicknessReport;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -36,41 +36,99 @@ pub(crate) struct Picks {
 /// What the rays of picks hit, by the picks' numbers.
 pub(crate) type Hits = Vec<(u32, Option<PickedPoint>)>;
 
-/// What the hits of the picks depend on.
+/// The scene of a side, and how its rays are traced and shaded.
 #[derive(Clone)]
-pub(crate) struct Basis {
+pub(crate) struct SideBasis {
     pub scene: Arc<Scene>,
-    pub kernel: &'static str,
+    pub intersector: Arc<dyn Intersector>,
     pub shading: Shading,
-    pub crease: Crease,
-    pub snapping: Snapping,
-    pub picks: Vec<(u32, Camera, UVec2)>,
+    /// The origin of the scene relative to that of the open scene, in whose coordinates picks are kept.
+    pub offset: DVec3,
 }
 
-impl PartialEq for Basis {
+impl PartialEq for SideBasis {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.scene, &other.scene)
-            && (self.kernel, self.shading, self.crease)
-                == (other.kernel, other.shading, other.crease)
-            && (self.snapping, &self.picks) == (other.snapping, &other.picks)
+            && Arc::ptr_eq(&self.intersector, &other.intersector)
+            && (self.shading, self.offset) == (other.shading, other.offset)
+    }
+}
+
+impl SideBasis {
+    /// A camera of the open scene in the coordinates of this one. Moving by 0 changes no bit.
+    fn camera(&self, camera: &Camera) -> Camera {
+        if self.offset == DVec3::ZERO {
+            *camera
+        } else {
+            camera.moved(-self.offset)
+        }
+    }
+
+    /// What a pick's ray hits.
+    fn hit(&self, camera: &Camera, pixel: UVec2, snapping: Snapping) -> Option<PickedPoint> {
+        let (scene, intersector) = (&self.scene, &*self.intersector);
+        let place = (&self.camera(camera), pixel);
+        let mut hit = PickedPoint::of_pixel(scene, intersector, self.shading, place, snapping)?;
+        hit.in_scene += self.offset;
+        Some(hit)
+    }
+}
+
+/// What the hits of the picks depend on.
+#[derive(Clone, PartialEq)]
+pub(crate) struct Basis {
+    /// Side A and side B; `None` if the side isn't traced or has no picks.
+    pub sides: [Option<SideBasis>; 2],
+    pub snapping: Snapping,
+    pub picks: Vec<(u32, Side, Camera, UVec2)>,
+}
+
+impl Basis {
+    /// Traces the rays of all picks.
+    pub fn hits(&self) -> Hits {
+        let hit = |&(number, side, camera, pixel): &(u32, Side, Camera, UVec2)| {
+            let side = self.sides[side as usize].as_ref();
+            let hit = side.and_then(|side| side.hit(&camera, pixel, self.snapping));
+            (number, hit)
+        };
+        self.picks.iter().map(hit).collect()
     }
 }
 
 /// What the details of the selected pick depend on.
-#[derive(Clone)]
+#[derive(Clone, PartialEq)]
 pub(crate) struct DetailBasis {
-    pub scene: Arc<Scene>,
-    pub kernel: &'static str,
+    pub side: SideBasis,
     pub has_last_tree: bool,
     pub place: (Camera, UVec2),
+    /// Whether thickness and walk are wanted.
     pub wants: [bool; 2],
 }
 
-impl PartialEq for DetailBasis {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.scene, &other.scene)
-            && (self.kernel, self.has_last_tree) == (other.kernel, other.has_last_tree)
-            && (self.place, self.wants) == (other.place, other.wants)
+impl DetailBasis {
+    /// Finds the details. Boxes are in the coordinates of the open scene.
+    pub fn detail(&self) -> Detail {
+        let (side, [wants_thickness, wants_walk]) = (&self.side, self.wants);
+        let (camera, pixel) = self.place;
+        let camera = side.camera(&camera);
+        let thickness = || ThicknessReport::of_pixel(&side.scene, &camera, pixel);
+        let mut walk = if wants_walk {
+            let ray = camera.ray_through(pixel.as_dvec2() + 0.5);
+            side.intersector.opened_boxes(&ray)
+        } else {
+            Vec::new()
+        };
+        if side.offset != DVec3::ZERO {
+            let by = side.offset.as_vec3();
+            for opened in &mut walk {
+                let Aabb { min, max } = opened.bounds;
+                (opened.bounds.min, opened.bounds.max) = (min + by, max + by);
+            }
+        }
+        Detail {
+            thickness: wants_thickness.then(thickness).flatten(),
+            walk,
+        }
     }
 }
 
@@ -82,7 +140,7 @@ pub(crate) struct Detail {
 
 impl Picks {
     /// Adds a pixel and selects it. Unless `keeps_others`, the picks that aren't pinned are removed.
-    pub fn add(&mut self, camera: Camera, pixel: UVec2, keeps_others: bool) {
+    pub fn add(&mut self, side: Side, camera: Camera, pixel: UVec2, keeps_others: bool) {
         if !keeps_others {
             self.list.retain(|pick| pick.is_pinned);
         }
@@ -91,6 +149,7 @@ impl Picks {
             number: self.last_number,
             name: String::new(),
             is_pinned: false,
+            side,
             camera,
             pixel,
         });
@@ -160,7 +219,7 @@ impl Picks {
         if let (Some((basis, detail)), Some(hit)) = (&self.detail, hit)
             && let Some(thickness) = &detail.thickness
         {
-            let origin = basis.scene.mesh().origin();
+            let origin = basis.side.scene.mesh().origin() - basis.side.offset;
             let from = DVec3::from_array(hit.position) - origin;
             all.add_thickness(thickness, from, origin);
         }

@@ -1,33 +1,30 @@
 //! The list of picks: what the user changes, and what their rays hit, which is traced in the background.
 
-use super::pick_list::{Basis, Detail, DetailBasis};
+use super::pick_list::{Basis, DetailBasis, SideBasis};
 use crate::app::App;
 use crate::comparison::Side;
 use crate::panels::picks::{PickRow, PicksChange, PicksView, WalkView};
 use crate::picks::{PickedPixel, PickedPoint, Snapping, to_csv, to_json};
 use crate::task::{Task, TaskPanicked};
-use glam::UVec2;
-use hitscope_core::Camera;
+use hitscope_core::film::ShownPixel;
 use hitscope_core::obj::shown;
 use hitscope_lab::commands::Output;
-use hitscope_lab::inspection::ThicknessReport;
 use std::path::Path;
 use std::sync::Arc;
 
 impl App {
-    /// Picks a pixel of a picture, and inspects it.
+    /// Picks a pixel of a side's picture, and inspects it. The camera is in the coordinates of the open scene.
     pub(in crate::app) fn pick_pixel(
         &mut self,
-        camera: Camera,
-        pixel: UVec2,
+        side: Side,
+        shown: ShownPixel,
         keeps_others: bool,
         ctx: &egui::Context,
     ) {
-        self.picked
-            .inspecting
-            .picks
-            .add(camera, pixel, keeps_others);
-        self.inspect(Side::A, camera, pixel, ctx);
+        let ShownPixel { camera, pixel } = shown;
+        let picks = &mut self.picked.inspecting.picks;
+        picks.add(side, camera, pixel, keeps_others);
+        self.inspect(side, camera, pixel, ctx);
     }
 
     /// Traces the rays of the picks if they or what their hits depend on have changed, and ends the export.
@@ -39,115 +36,77 @@ impl App {
         self.poll_export();
     }
 
-    fn poll_hits(&mut self, ctx: &egui::Context) -> Result<(), TaskPanicked> {
-        let document = &self.open.document;
-        let basis = Basis {
+    /// The scene of a side, and how its rays are traced; `None` if it isn't traced.
+    fn side_basis(&self, side: Side) -> Option<SideBasis> {
+        let document = self.traced_document_of(side)?;
+        Some(SideBasis {
             scene: Arc::clone(&document.loaded.scene),
-            kernel: document.intersector().kernel().name,
-            shading: self.seen.settings.shading(),
-            crease: document.loaded.scene.crease(),
-            snapping: self.picked.inspecting.picks.snapping,
-            picks: (self.picked.inspecting.picks.list.iter())
-                .map(|pick| (pick.number, pick.camera, pick.pixel))
-                .collect(),
-        };
+            intersector: Arc::clone(document.intersector()),
+            shading: self.shading_of(side),
+            offset: document.origin() - self.open.document.origin(),
+        })
+    }
+
+    fn basis(&self) -> Basis {
+        let picks = &self.picked.inspecting.picks;
+        let has_picks = |side: Side| picks.list.iter().any(|pick| pick.side == side);
+        let of_side = |side: Side| self.side_basis(side).filter(|_| has_picks(side));
+        let place = |pick: &PickedPixel| (pick.number, pick.side, pick.camera, pick.pixel);
+        Basis {
+            sides: [Side::A, Side::B].map(of_side),
+            snapping: picks.snapping,
+            picks: picks.list.iter().map(place).collect(),
+        }
+    }
+
+    fn poll_hits(&mut self, ctx: &egui::Context) -> Result<(), TaskPanicked> {
+        let basis = self.basis();
+        let picks = &mut self.picked.inspecting.picks;
         let is_known = |(known, _): &(Basis, _)| *known == basis;
-        if self
-            .picked
-            .inspecting
-            .picks
-            .found
-            .as_ref()
-            .is_some_and(is_known)
-        {
+        if picks.found.as_ref().is_some_and(is_known) {
             return Ok(());
         }
-        let (wanted, intersector) = (basis.clone(), Arc::clone(document.intersector()));
-        let trace = move || {
-            let hit = |&(number, camera, pixel): &(u32, Camera, UVec2)| {
-                let Basis {
-                    scene,
-                    shading,
-                    snapping,
-                    ..
-                } = &wanted;
-                let place = (&camera, pixel);
-                let hit = PickedPoint::of_pixel(scene, &*intersector, *shading, place, *snapping);
-                (number, hit)
-            };
-            wanted.picks.iter().map(hit).collect()
-        };
-        let start = || Task::spawn("picks", ctx, trace);
-        if let Some(mut found) = self
-            .picked
-            .inspecting
-            .picks
-            .task
-            .get(basis.clone(), start)?
-        {
-            let lines = &self.open.document.loaded.report.face_lines;
-            let hits = found.iter_mut().filter_map(|(_, hit)| hit.as_mut());
-            hits.for_each(|hit| hit.find_line(lines));
+        let wanted = basis.clone();
+        let start = || Task::spawn("picks", ctx, move || wanted.hits());
+        if let Some(mut found) = picks.task.get(basis.clone(), start)? {
+            for ((_, hit), (_, side, ..)) in found.iter_mut().zip(&basis.picks) {
+                if let (Some(hit), Some(document)) = (hit, self.file_of(*side)) {
+                    hit.find_line(&document.loaded.report.face_lines);
+                }
+            }
             self.picked.inspecting.picks.found = Some((basis, found));
         }
         Ok(())
     }
 
-    fn poll_detail(&mut self, ctx: &egui::Context) -> Result<(), TaskPanicked> {
-        let wants = [
-            self.picked.inspecting.picks.measures_thickness,
-            self.picked.inspecting.picks.shows_walk,
-        ];
-        let selected = self
-            .picked
-            .inspecting
-            .picks
-            .selected()
-            .filter(|_| wants.contains(&true));
-        let Some(pick) = selected else {
-            self.picked.inspecting.picks.detail = None;
-            return Ok(());
-        };
-        let document = &self.open.document;
-        let basis = DetailBasis {
-            scene: Arc::clone(&document.loaded.scene),
-            kernel: document.intersector().kernel().name,
-            has_last_tree: document.has_last_tree(),
+    /// What the details of the selected pick depend on; `None` if none are wanted.
+    fn detail_basis(&self) -> Option<DetailBasis> {
+        let picks = &self.picked.inspecting.picks;
+        let wants = [picks.measures_thickness, picks.shows_walk];
+        let pick = picks.selected().filter(|_| wants.contains(&true))?;
+        Some(DetailBasis {
+            side: self.side_basis(pick.side)?,
+            has_last_tree: self.document_of(pick.side).has_last_tree(),
             place: (pick.camera, pick.pixel),
             wants,
+        })
+    }
+
+    fn poll_detail(&mut self, ctx: &egui::Context) -> Result<(), TaskPanicked> {
+        let basis = self.detail_basis();
+        let picks = &mut self.picked.inspecting.picks;
+        let Some(basis) = basis else {
+            picks.detail = None;
+            return Ok(());
         };
         let is_known = |(known, _): &(DetailBasis, _)| *known == basis;
-        if self
-            .picked
-            .inspecting
-            .picks
-            .detail
-            .as_ref()
-            .is_some_and(is_known)
-        {
+        if picks.detail.as_ref().is_some_and(is_known) {
             return Ok(());
         }
-        let (scene, intersector) = (Arc::clone(&basis.scene), Arc::clone(document.intersector()));
-        let (camera, pixel) = basis.place;
-        let find = move || Detail {
-            thickness: wants[0]
-                .then(|| ThicknessReport::of_pixel(&scene, &camera, pixel))
-                .flatten(),
-            walk: if wants[1] {
-                intersector.opened_boxes(&camera.ray_through(pixel.as_dvec2() + 0.5))
-            } else {
-                Vec::new()
-            },
-        };
-        let start = || Task::spawn("pick detail", ctx, find);
-        if let Some(detail) = self
-            .picked
-            .inspecting
-            .picks
-            .detail_task
-            .get(basis.clone(), start)?
-        {
-            self.picked.inspecting.picks.detail = Some((basis, detail));
+        let wanted = basis.clone();
+        let start = || Task::spawn("pick detail", ctx, move || wanted.detail());
+        if let Some(detail) = picks.detail_task.get(basis.clone(), start)? {
+            picks.detail = Some((basis, detail));
         }
         Ok(())
     }
@@ -158,8 +117,13 @@ impl App {
             number: pick.number,
             name: pick.name.clone(),
             is_pinned: pick.is_pinned,
+            is_on_b: pick.side == Side::B,
             is_selected: self.picked.inspecting.picks.selected == Some(pick.number),
-            hit: hit.map(|hit| format!("{} {}, {}", hit.shape, hit.primitive, hit.snapped_to)),
+            hit: match hit {
+                Some(hit) => format!("{} {}, {}", hit.shape, hit.primitive, hit.snapped_to),
+                None if self.traced_document_of(pick.side).is_some() => "no hit".to_owned(),
+                None => "side B isn't traced".to_owned(),
+            },
         };
         let walk = self.picked.inspecting.picks.walk();
         let step = self
@@ -208,8 +172,8 @@ impl App {
                 picks.selected = Some(number);
                 picks.step = 0;
                 if let Some(pick) = picks.selected() {
-                    let (camera, pixel) = (pick.camera, pick.pixel);
-                    self.inspect(Side::A, camera, pixel, ctx);
+                    let (side, camera, pixel) = (pick.side, pick.camera, pick.pixel);
+                    self.inspect(side, camera, pixel, ctx);
                 }
             }
             PicksChange::Walk(step) => picks.step = step,

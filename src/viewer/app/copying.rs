@@ -1,0 +1,74 @@
+//! Copying of the inspection as text. A background task writes the text: in a bad mesh, a ray crosses a million triangles.
+
+use super::App;
+use crate::task::Task;
+use std::sync::Arc;
+
+impl App {
+    /// Copies the inspection as JSON, with the path of the selected sample if the view follows paths, once it is written.
+    pub(crate) fn copy_pick(&mut self, ctx: &egui::Context) {
+        let Some(pick) = &self.picked.pick else {
+            return;
+        };
+        let (shared, path) = (Arc::clone(&pick.inspection), self.current_path().cloned());
+        let write = move || {
+            let mut inspection = (*shared).clone();
+            inspection.path = path;
+            inspection.to_json()
+        };
+        self.picked.copying = Some(Task::spawn("copy", ctx, write));
+    }
+
+    /// Copies the text that was written.
+    pub(super) fn poll_copying(&mut self, ctx: &egui::Context) {
+        let text = match self.picked.copying.as_ref().map(Task::poll) {
+            None | Some(Ok(None)) => return,
+            Some(Ok(Some(text))) => Ok(text),
+            Some(Err(panicked)) => Err(panicked),
+        };
+        self.picked.copying = None;
+        match text {
+            Ok(text) => ctx.copy_text(text),
+            Err(panicked) => self.error(panicked),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::harness::{Window, app, click, in_picture, wait};
+    use crate::task::sabotage;
+    use egui::OutputCommand;
+
+    /// The text that the last frame copied.
+    fn copied(window: &Window) -> Option<String> {
+        let commands = &window.output().platform_output.commands;
+        commands.iter().find_map(|command| match command {
+            OutputCommand::CopyText(text) => Some(text.clone()),
+            _ => None,
+        })
+    }
+
+    #[test]
+    fn the_inspection_is_written_in_the_background() {
+        let Some(mut window) = app(None) else { return };
+        let at = in_picture(&window, 0.5, 0.5);
+        click(&mut window, at);
+        wait(&mut window, "the pick", |app| app.inspection().is_some());
+        let expected = window.state().inspection().expect("a pick").to_json();
+        let hold = sabotage::hold("copy");
+        let ctx = window.ctx.clone();
+        window.state_mut().copy_pick(&ctx);
+        window.step();
+        assert_eq!(copied(&window), None);
+        drop(hold);
+        let text = loop {
+            window.step();
+            if let Some(text) = copied(&window) {
+                break text;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        };
+        assert_eq!(text, expected);
+    }
+}

@@ -1,0 +1,71 @@
+//! Pauses of refinement: by the user, at a limit, and until nothing has changed for a while.
+
+use super::{Limits, Tracer};
+use std::time::Duration;
+
+/// Refinement begins when nothing has changed for this long. Until then the CPU is free to draw the window, which
+/// takes most of its time without a GPU.
+pub(super) const REST: Duration = Duration::from_millis(80);
+
+impl Tracer {
+    /// Starts refinement, or the view after its preview, once nothing has changed for a while.
+    pub(super) fn end_hold(&mut self, ctx: &egui::Context) {
+        if !self.is_held {
+            return;
+        }
+        let since = self
+            .posted
+            .as_ref()
+            .map_or(REST, |posted| posted.at.elapsed());
+        let is_preview = self.posted.as_ref().is_some_and(|posted| posted.is_preview);
+        if since < REST {
+            ctx.request_repaint_after(REST - since);
+        } else if !is_preview {
+            self.is_held = false;
+            self.apply_pause();
+        } else if self.film.passes_done() > 0 {
+            self.is_held = false;
+            self.begin_view();
+        }
+    }
+
+    /// Ends refinement if a limit is reached.
+    pub(super) fn check_limits(&mut self) {
+        if let (None, Some(posted)) = (self.stopped, &self.posted)
+            && posted.is_lit()
+        {
+            let secs = posted.busy_secs / self.renderer.thread_count() as f64;
+            let (samples, noise) = (self.film.samples(), self.noise.total());
+            self.stopped = self.limits.reached(secs, samples, noise);
+            self.apply_pause();
+        }
+    }
+
+    /// Sets the conditions that end refinement.
+    pub fn set_limits(&mut self, limits: Limits) {
+        if self.limits != limits {
+            (self.limits, self.stopped) = (limits, None);
+            self.check_limits();
+            self.apply_pause();
+        }
+    }
+
+    /// Whether the user has paused refinement.
+    pub fn is_paused(&self) -> bool {
+        self.is_paused
+    }
+
+    /// Pauses or resumes refinement.
+    pub fn toggle_pause(&mut self) {
+        self.is_paused = !self.is_paused;
+        self.apply_pause();
+    }
+
+    pub(super) fn apply_pause(&mut self) {
+        if self.is_paused || self.is_held || self.stopped.is_some() {
+            self.renderer.pause();
+        } else {
+            self.renderer.resume();
+        }
+    }
+}
