@@ -6,7 +6,7 @@
 //! triangles and `algebraic` for other shapes whose hits are compared exactly. `packet` traces coherent rays together, and
 //! `interleaved` alternates between rays, so that none waits for memory; `stream` is the table of these searches.
 //! `improving` forwards to an intersector that can be replaced when a better tree is ready. `groups` finds the hits of
-//! a scene's groups, which `ranked_hit` orders. `clipped` cuts rays with a clip.
+//! a scene's `numbered` groups, which `ranked_hit` orders. `clipped` cuts rays with a clip.
 
 mod algebraic;
 mod blocks;
@@ -17,6 +17,7 @@ pub(crate) mod improving;
 mod interleaved;
 mod levels;
 mod method;
+mod numbered;
 mod order;
 mod packet;
 mod ranked;
