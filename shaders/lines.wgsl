@@ -7,12 +7,14 @@ struct Style {
     half_width_px: f32,
     // The end is moved to this many times its distance from the start.
     stretch: f32,
-    // 1: lines fade where they or the gap between them would be less than a few pixels long. 2: the gap alone counts, as
-    // lines are pieces of curves. 3: the same, whatever the gap's direction. 0: they don't fade.
-    fade: f32,
-    // 1: the clip cuts lines. 0: it doesn't.
-    is_cut: f32,
 };
+
+// `Fade` in src/viewer/gpu/lines.rs. 1: lines fade where they or the gap between them would be less than a few pixels
+// long. 2: the gap alone counts, as lines are pieces of curves. 3: the same, whatever the gap's direction. 0: they don't
+// fade.
+override FADE: u32;
+// Whether the clip cuts lines.
+override IS_CUT: bool;
 
 @group(1) @binding(0) var<uniform> style: Style;
 
@@ -67,7 +69,7 @@ fn longest_px(at: vec3f, size: f32) -> f32 {
 // The part of a line that the clip keeps, as two factors from 0 to 1; the first is the larger one if nothing is kept.
 fn kept_part(start: vec3f, end: vec3f) -> vec2f {
     var part = vec2f(0.0, 1.0);
-    for (var k = 0u; k < view.plane_count; k += 1u) {
+    for (var k = 0u; k < PLANE_COUNT; k += 1u) {
         let plane = view.planes[k];
         let before = dot(plane.xyz, start) - plane.w;
         let after = dot(plane.xyz, end) - plane.w;
@@ -89,7 +91,7 @@ fn kept_part(start: vec3f, end: vec3f) -> vec2f {
 fn vs_main(@builtin(vertex_index) vertex: u32, line: Line) -> Fragment {
     let far = mix(line.start, line.end, style.stretch);
     var part = vec2f(0.0, 1.0);
-    if style.is_cut > 0.0 {
+    if IS_CUT {
         part = kept_part(line.start, far);
         if part.x > part.y {
             return NOWHERE;
@@ -116,15 +118,15 @@ fn vs_main(@builtin(vertex_index) vertex: u32, line: Line) -> Fragment {
     }
 
     var alpha = 1.0;
-    if style.fade > 2.0 {
+    if FADE > 2u {
         alpha = visible_part(longest_px(line.start, length(line.gap)));
-    } else if style.fade > 0.0 {
+    } else if FADE > 0u {
         let middle = mix(line.start, line.end, 0.5);
         let here = clip_from_position(middle);
         let beside = clip_from_position(middle + line.gap);
         if min(here.w, beside.w) > view.near_w {
             let gap_px = length(pixel_from_clip(beside) - pixel_from_clip(here));
-            alpha = visible_part(select(min(gap_px, length_px), gap_px, style.fade > 1.0));
+            alpha = visible_part(select(min(gap_px, length_px), gap_px, FADE > 1u));
         }
     }
 

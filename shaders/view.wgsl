@@ -9,11 +9,14 @@ struct View {
     near_w: f32,
     // Width and height of the picture in pixels.
     viewport: vec2f,
-    // The number of the clip's planes.
-    plane_count: u32,
-    // Normal and offset of each plane; a point p is kept if dot(normal, p) is at most the offset.
-    planes: array<vec4f, 16>,
+    // Normal and offset of each of the clip's planes; a point p is kept if dot(normal, p) is at most the offset. Unused
+    // planes keep every point.
+    planes: array<vec4f, PLANE_COUNT>,
 };
+
+// Not a uniform: a driver may compile a shader again for each value of a uniform that a branch or a loop depends on.
+// Mesa's lavapipe 22.3 does that for each drawing, and keeps every result.
+const PLANE_COUNT = 16u;
 
 @group(0) @binding(0) var<uniform> view: View;
 
@@ -25,7 +28,7 @@ fn clip_from_position(position: vec3f) -> vec4f {
 
 // Whether the clip keeps a point.
 fn is_kept(position: vec3f) -> bool {
-    for (var k = 0u; k < view.plane_count; k += 1u) {
+    for (var k = 0u; k < PLANE_COUNT; k += 1u) {
         if dot(view.planes[k].xyz, position) > view.planes[k].w {
             return false;
         }

@@ -141,10 +141,10 @@ fn draw_tiles(
     let mut sets = Vec::new();
     for WantedLines { gather, looks, .. } in lines {
         let lines = Arc::new(LineSet::new(device, queue, &gather.lines(scene))?);
-        sets.extend(looks.into_iter().map(|(occlusion, style)| DrawnLines {
+        sets.extend(looks.into_iter().map(|(kind, style)| DrawnLines {
             lines: Arc::clone(&lines),
             style,
-            occlusion,
+            kind,
         }));
     }
     let mesh = Arc::new(DepthMesh::new(device, queue, scene)?);

@@ -10,7 +10,7 @@ use hitscope::document::Document;
 use hitscope::gpu::GpuError;
 use hitscope::gpu::depth::DepthMesh;
 use hitscope::gpu::drawing::{Canvas, Drawing, DrawingState, DrawnLines, Overlay, Paces, Targets};
-use hitscope::gpu::lines::{Line, LineOcclusion, LineSet, StyleUniform};
+use hitscope::gpu::lines::{Fade, Line, LineKind, LineOcclusion, LineSet, StyleUniform};
 use hitscope::gpu::slices::Pace;
 use hitscope::gpu::view::ViewUniform;
 use hitscope::offscreen::{self, read_back};
@@ -27,13 +27,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-const STYLE: StyleUniform = StyleUniform {
-    colour: [0.9, 0.4, 0.1, 0.7],
-    half_width_px: 0.8,
-    stretch: 1.0,
-    fade: 1.0,
-    is_cut: 1.0,
-};
+const STYLE: StyleUniform = StyleUniform::new([0.9, 0.4, 0.1, 0.7], 0.8, 1.0);
 
 /// A device of the shared adapter with this limit on buffer sizes. It is never closed.
 fn small_device(max_buffer_size: u64) -> Option<(wgpu::Device, wgpu::Queue)> {
@@ -57,7 +51,11 @@ fn drawing(
     let set = |occlusion| DrawnLines {
         lines: Arc::clone(&lines),
         style: STYLE,
-        occlusion,
+        kind: LineKind {
+            occlusion,
+            fade: Fade::ShortOrDense,
+            is_cut: true,
+        },
     };
     Ok(Drawing {
         traced: None,

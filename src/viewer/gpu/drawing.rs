@@ -4,7 +4,7 @@
 //! depth of the mesh and of other shapes is drawn first, then the lines. Depth is reversed (1 near, 0 far), which keeps precision at a distance.
 
 use super::depth::{DepthMesh, DepthPipeline};
-use super::lines::{LineOcclusion, LinePipelines, LineSet, LineStyle, StyleUniform};
+use super::lines::{LineKind, LinePipelines, LineSet, LineStyle, StyleUniform};
 use super::slices::{Pace, Slices, submit_and_wait};
 use super::traced::{TracedGroup, TracedLayer, TracedPipelines};
 use super::upload::allocated;
@@ -21,8 +21,8 @@ pub struct DrawnLines {
     pub lines: Arc<LineSet>,
     /// Their style.
     pub style: StyleUniform,
-    /// Whether surfaces hide them.
-    pub occlusion: LineOcclusion,
+    /// Their kind.
+    pub kind: LineKind,
 }
 
 /// The contents of an overlay.
@@ -43,7 +43,7 @@ pub struct Drawing {
 impl PartialEq for Drawing {
     fn eq(&self, other: &Self) -> bool {
         let is_same = |(a, b): (&DrawnLines, &DrawnLines)| {
-            Arc::ptr_eq(&a.lines, &b.lines) && (a.style, a.occlusion) == (b.style, b.occlusion)
+            Arc::ptr_eq(&a.lines, &b.lines) && (a.style, a.kind) == (b.style, b.kind)
         };
         self.has_depth_of(other)
             && self.outline == other.outline
@@ -165,8 +165,8 @@ impl Overlay {
     /// Compiles the shaders.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         let view = ViewBinding::new(device);
-        let lines = LinePipelines::new(device, &view, COLOUR_FORMAT, DEPTH_FORMAT);
         let formats = [COLOUR_FORMAT, DEPTH_FORMAT];
+        let lines = LinePipelines::new(device, &view, formats);
         Self {
             depth: DepthPipeline::new(device, &view, DEPTH_FORMAT),
             traced: TracedPipelines::new(device, &view, &lines, formats),
@@ -252,6 +252,13 @@ impl Overlay {
             .iter()
             .map(|set| self.lines.style(&self.device, &set.style));
         let styles: Vec<LineStyle> = styles.collect();
+        let is_clipped = drawing.view.is_clipped();
+        let pipeline = |set: &DrawnLines| {
+            let is_cut = set.kind.is_cut && is_clipped;
+            self.lines
+                .pipeline(&self.device, LineKind { is_cut, ..set.kind })
+        };
+        let pipelines: Vec<_> = drawing.sets.iter().map(pipeline).collect();
         // A part is a buffer of a set.
         let parts = (0..drawing.sets.len())
             .flat_map(|set| (0..drawing.sets[set].lines.buffers().len()).map(move |k| (set, k)));
@@ -287,8 +294,7 @@ impl Overlay {
                     let (set, k) = parts[part];
                     let drawn = &drawing.sets[set];
                     let buffer = &drawn.lines.buffers()[k].0;
-                    self.lines
-                        .draw(&mut pass, drawn.occlusion, &styles[set], buffer, range);
+                    LinePipelines::draw(&mut pass, pipelines[set], &styles[set], buffer, range);
                 }
             }
             self.submit(encoder, pace);

@@ -6,6 +6,7 @@ use super::{GpuError, shader, uniform_group, uniform_layout};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// Appended to [`view::SHADER`](super::view::SHADER).
 pub const SHADER: &str = include_str!("../../../shaders/lines.wgsl");
@@ -48,22 +49,26 @@ pub struct StyleUniform {
     pub half_width_px: f32,
     /// Factor of the line's length; the start stays in place.
     pub stretch: f32,
-    /// 1 if lines fade where they are short or dense, 2 if only where they are dense, 3 if where they are dense in any
-    /// direction, else 0.
-    pub fade: f32,
-    /// 1 if the clip cuts lines, else 0.
-    pub is_cut: f32,
+    padding: [f32; 2],
 }
 
 impl StyleUniform {
+    /// The style of this colour, width and stretch.
+    pub const fn new(colour: [f32; 4], half_width_px: f32, stretch: f32) -> Self {
+        Self {
+            colour,
+            half_width_px,
+            stretch,
+            padding: [0.0; 2],
+        }
+    }
+
     /// Offsets of the members, for the test that compares them with WGSL's.
     #[cfg(test)]
-    pub(super) const OFFSETS: [usize; 5] = [
+    pub(super) const OFFSETS: [usize; 3] = [
         std::mem::offset_of!(Self, colour),
         std::mem::offset_of!(Self, half_width_px),
         std::mem::offset_of!(Self, stretch),
-        std::mem::offset_of!(Self, fade),
-        std::mem::offset_of!(Self, is_cut),
     ];
 }
 
@@ -74,6 +79,39 @@ pub enum LineOcclusion {
     Hidden,
     /// Lines behind a surface are visible.
     Through,
+}
+
+/// When lines fade. The discriminant is the shader's `FADE`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fade {
+    /// Never.
+    Never,
+    /// Where they are short or dense in the picture.
+    ShortOrDense,
+    /// Where they are dense: for lines that consist of short pieces.
+    Dense,
+    /// Where they are dense, whatever the direction to the next one: for lines at points that are spread over a surface.
+    Spread,
+}
+
+/// What lines of one pipeline share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LineKind {
+    /// Whether surfaces hide the lines.
+    pub occlusion: LineOcclusion,
+    /// When the lines fade.
+    pub fade: Fade,
+    /// Whether the clip cuts the lines.
+    pub is_cut: bool,
+}
+
+impl LineKind {
+    /// The number of kinds.
+    const COUNT: usize = 16;
+
+    fn index(self) -> usize {
+        8 * self.occlusion as usize + 2 * self.fade as usize + usize::from(self.is_cut)
+    }
 }
 
 /// Lines on the GPU.
@@ -112,16 +150,18 @@ impl LineStyle {
 /// The pipelines that draw sets of lines.
 pub struct LinePipelines {
     style_layout: wgpu::BindGroupLayout,
-    hidden: wgpu::RenderPipeline,
-    through: wgpu::RenderPipeline,
+    layout: wgpu::PipelineLayout,
+    module: wgpu::ShaderModule,
+    formats: [wgpu::TextureFormat; 2],
+    /// By [`LineKind::index`]; each is compiled when it is first drawn.
+    pipelines: [OnceLock<wgpu::RenderPipeline>; LineKind::COUNT],
 }
 
 impl LinePipelines {
     pub(super) fn new(
         device: &wgpu::Device,
         view: &ViewBinding,
-        colour_format: wgpu::TextureFormat,
-        depth_format: wgpu::TextureFormat,
+        formats: [wgpu::TextureFormat; 2],
     ) -> Self {
         let style_layout = uniform_layout(device, "line style");
         let module = shader(device, "lines", SHADER);
@@ -130,50 +170,71 @@ impl LinePipelines {
             bind_group_layouts: &[Some(view.layout()), Some(&style_layout)],
             immediate_size: 0,
         });
-        let pipeline = |label, depth_compare| {
-            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(label),
-                layout: Some(&layout),
-                vertex: wgpu::VertexState {
-                    module: &module,
-                    entry_point: Some("vs_main"),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    buffers: &[Some(wgpu::VertexBufferLayout {
-                        array_stride: size_of::<Line>() as u64,
-                        step_mode: wgpu::VertexStepMode::Instance,
-                        attributes: &wgpu::vertex_attr_array![
-                            0 => Float32x3, 1 => Float32x3, 2 => Float32x3
-                        ],
-                    })],
-                },
-                primitive: wgpu::PrimitiveState::default(),
-                depth_stencil: Some(wgpu::DepthStencilState {
-                    format: depth_format,
-                    depth_write_enabled: Some(false),
-                    depth_compare: Some(depth_compare),
-                    stencil: wgpu::StencilState::default(),
-                    bias: wgpu::DepthBiasState::default(),
-                }),
-                multisample: wgpu::MultisampleState::default(),
-                fragment: Some(wgpu::FragmentState {
-                    module: &module,
-                    entry_point: Some("fs_main"),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    targets: &[Some(wgpu::ColorTargetState {
-                        format: colour_format,
-                        blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-                        write_mask: wgpu::ColorWrites::ALL,
-                    })],
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
-        };
         Self {
-            hidden: pipeline("lines", wgpu::CompareFunction::GreaterEqual),
-            through: pipeline("lines through", wgpu::CompareFunction::Always),
             style_layout,
+            layout,
+            module,
+            formats,
+            pipelines: [const { OnceLock::new() }; LineKind::COUNT],
         }
+    }
+
+    /// The pipeline of a kind. Compiles it unless that has been done.
+    pub(super) fn pipeline(&self, device: &wgpu::Device, kind: LineKind) -> &wgpu::RenderPipeline {
+        self.pipelines[kind.index()].get_or_init(|| self.compiled(device, kind))
+    }
+
+    fn compiled(&self, device: &wgpu::Device, kind: LineKind) -> wgpu::RenderPipeline {
+        let [colour_format, depth_format] = self.formats;
+        let depth_compare = match kind.occlusion {
+            LineOcclusion::Hidden => wgpu::CompareFunction::GreaterEqual,
+            LineOcclusion::Through => wgpu::CompareFunction::Always,
+        };
+        let constants = [
+            ("FADE", f64::from(kind.fade as u8)),
+            ("IS_CUT", f64::from(u8::from(kind.is_cut))),
+        ];
+        let options = || wgpu::PipelineCompilationOptions {
+            constants: &constants,
+            ..wgpu::PipelineCompilationOptions::default()
+        };
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("lines"),
+            layout: Some(&self.layout),
+            vertex: wgpu::VertexState {
+                module: &self.module,
+                entry_point: Some("vs_main"),
+                compilation_options: options(),
+                buffers: &[Some(wgpu::VertexBufferLayout {
+                    array_stride: size_of::<Line>() as u64,
+                    step_mode: wgpu::VertexStepMode::Instance,
+                    attributes: &wgpu::vertex_attr_array![
+                        0 => Float32x3, 1 => Float32x3, 2 => Float32x3
+                    ],
+                })],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: depth_format,
+                depth_write_enabled: Some(false),
+                depth_compare: Some(depth_compare),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &self.module,
+                entry_point: Some("fs_main"),
+                compilation_options: options(),
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: colour_format,
+                    blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
     }
 
     /// The layout of a style's bind group.
@@ -199,17 +260,13 @@ impl LinePipelines {
 
     /// Draws a range of a buffer's lines.
     pub(super) fn draw(
-        &self,
         pass: &mut wgpu::RenderPass<'_>,
-        occlusion: LineOcclusion,
+        pipeline: &wgpu::RenderPipeline,
         style: &LineStyle,
         buffer: &wgpu::Buffer,
         lines: Range<u32>,
     ) {
-        pass.set_pipeline(match occlusion {
-            LineOcclusion::Hidden => &self.hidden,
-            LineOcclusion::Through => &self.through,
-        });
+        pass.set_pipeline(pipeline);
         pass.set_bind_group(1, &style.0, &[]);
         pass.set_vertex_buffer(0, buffer.slice(..));
         pass.draw(0..6, lines);

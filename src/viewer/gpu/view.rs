@@ -11,6 +11,9 @@ use hitscope_lab::commands::MAX_OVERLAY_PLANES;
 /// The part that all shaders share.
 pub const SHADER: &str = include_str!("../../../shaders/view.wgsl");
 
+/// A plane that keeps every point: no normal, and the largest offset.
+const KEEPS_ALL: [f32; 4] = [0.0, 0.0, 0.0, f32::MAX];
+
 /// Twin of `View` in shaders/view.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -19,21 +22,19 @@ pub struct ViewUniform {
     eye: [f32; 3],
     near_w: f32,
     viewport: [f32; 2],
-    plane_count: u32,
-    padding: f32,
-    /// Normal and offset of each half-space of the clip.
+    padding: [f32; 2],
+    /// Normal and offset of each half-space of the clip, then [`KEEPS_ALL`].
     planes: [[f32; 4]; MAX_OVERLAY_PLANES],
 }
 
 impl ViewUniform {
     /// Offsets of the members, for the test that compares them with WGSL's.
     #[cfg(test)]
-    pub(super) const OFFSETS: [usize; 6] = [
+    pub(super) const OFFSETS: [usize; 5] = [
         std::mem::offset_of!(Self, clip_from_eye),
         std::mem::offset_of!(Self, eye),
         std::mem::offset_of!(Self, near_w),
         std::mem::offset_of!(Self, viewport),
-        std::mem::offset_of!(Self, plane_count),
         std::mem::offset_of!(Self, planes),
     ];
 
@@ -65,9 +66,8 @@ impl ViewUniform {
             eye: camera.eye().to_array(),
             near_w: near_w as f32,
             viewport: camera.resolution().as_vec2().to_array(),
-            plane_count: 0,
-            padding: 0.0,
-            planes: [[0.0; 4]; MAX_OVERLAY_PLANES],
+            padding: [0.0; 2],
+            planes: [KEEPS_ALL; MAX_OVERLAY_PLANES],
         }
     }
 
@@ -75,7 +75,7 @@ impl ViewUniform {
     #[must_use]
     pub fn clipped(mut self, clip: Option<&Clip>) -> Self {
         let half_spaces = clip.map_or(&[][..], Clip::half_spaces);
-        self.plane_count = half_spaces.len().min(MAX_OVERLAY_PLANES) as u32;
+        self.planes = [KEEPS_ALL; MAX_OVERLAY_PLANES];
         for (plane, half_space) in self.planes.iter_mut().zip(half_spaces) {
             let normal = half_space.normal().as_vec3();
             *plane = normal.extend(half_space.offset() as f32).to_array();
@@ -103,7 +103,7 @@ impl ViewUniform {
 
     /// Whether there is a clip.
     pub fn is_clipped(&self) -> bool {
-        self.plane_count > 0
+        self.planes[0] != KEEPS_ALL
     }
 
     /// The reversed depth of a point.

@@ -5,7 +5,7 @@ use super::input::OverlayInput;
 use super::label::Label;
 use super::spec::OverlaySpec;
 use super::state::Overlays;
-use crate::gpu::lines::{LineOcclusion, StyleUniform};
+use crate::gpu::lines::{LineKind, StyleUniform};
 use crate::gpu::view::ViewUniform;
 use hitscope_core::Aabb;
 
@@ -27,8 +27,8 @@ pub struct WantedLines {
     pub slot: usize,
     /// How they are gathered.
     pub gather: Gather,
-    /// Their styles in the order of drawing.
-    pub looks: Vec<(LineOcclusion, StyleUniform)>,
+    /// Their kinds and styles in the order of drawing.
+    pub looks: Vec<(LineKind, StyleUniform)>,
 }
 
 impl Contents {

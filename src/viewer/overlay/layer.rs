@@ -229,10 +229,10 @@ impl OverlayLayer {
         };
         let drawn = |lines: Arc<LineSet>| {
             let looks = wanted.looks.iter();
-            let set = |&(occlusion, style): &_| DrawnLines {
+            let set = |&(kind, style): &_| DrawnLines {
                 lines: Arc::clone(&lines),
                 style,
-                occlusion,
+                kind,
             };
             looks.map(set).collect()
         };

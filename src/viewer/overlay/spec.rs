@@ -4,7 +4,8 @@ use super::gather::Gather;
 use super::input::OverlayInput;
 use super::label::Label;
 use super::state::OverlayState;
-use crate::gpu::lines::{LineOcclusion, StyleUniform};
+pub use crate::gpu::lines::Fade;
+use crate::gpu::lines::{LineKind, LineOcclusion, StyleUniform};
 use std::ops::RangeInclusive;
 
 /// A row of the table: an overlay. Rows are made from [`SWITCH`](Self::SWITCH) or [`MARK`](Self::MARK).
@@ -92,19 +93,6 @@ pub struct LineSpec {
     pub is_cut: bool,
 }
 
-/// When lines fade.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fade {
-    /// Never.
-    Never,
-    /// Where they are short or dense in the picture.
-    ShortOrDense,
-    /// Where they are dense: for lines that consist of short pieces.
-    Dense,
-    /// Where they are dense, whatever the direction to the next one: for lines at points that are spread over a surface.
-    Spread,
-}
-
 /// How lines behind a surface are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Behind {
@@ -184,34 +172,30 @@ impl LineSpec {
             .colour
             .unwrap_or(state.colour)
             .map(|c| f32::from(c) / 255.0);
-        StyleUniform {
-            colour: [r, g, b, self.opacity * state.opacity],
-            half_width_px: 0.5 * self.width * state.width_px * scale,
-            stretch: self.length.map_or(1.0, |length| state.value(length)),
-            fade: match self.fade {
-                Fade::Never => 0.0,
-                Fade::ShortOrDense => 1.0,
-                Fade::Dense => 2.0,
-                Fade::Spread => 3.0,
-            },
-            is_cut: f32::from(u8::from(self.is_cut)),
+        let colour = [r, g, b, self.opacity * state.opacity];
+        let half_width_px = 0.5 * self.width * state.width_px * scale;
+        let stretch = self.length.map_or(1.0, |length| state.value(length));
+        StyleUniform::new(colour, half_width_px, stretch)
+    }
+
+    fn kind(&self, occlusion: LineOcclusion) -> LineKind {
+        LineKind {
+            occlusion,
+            fade: self.fade,
+            is_cut: self.is_cut,
         }
     }
 
-    /// The same lines' styles in the order of drawing: faint ones through surfaces first, then those in front of them.
-    pub(super) fn looks(
-        &self,
-        state: &OverlayState,
-        scale: f32,
-    ) -> Vec<(LineOcclusion, StyleUniform)> {
+    /// The same lines' kinds and styles in the order of drawing: faint ones through surfaces first, then those in front of them.
+    pub(super) fn looks(&self, state: &OverlayState, scale: f32) -> Vec<(LineKind, StyleUniform)> {
         let style = self.style(state, scale);
         let mut looks = Vec::new();
         if self.behind == Behind::Faint {
             let mut faint = style;
             faint.colour[3] *= FAINT;
-            looks.push((LineOcclusion::Through, faint));
+            looks.push((self.kind(LineOcclusion::Through), faint));
         }
-        looks.push((LineOcclusion::Hidden, style));
+        looks.push((self.kind(LineOcclusion::Hidden), style));
         looks
     }
 }
