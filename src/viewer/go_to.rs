@@ -1,6 +1,8 @@
 //! The box in which the user names an element to go to.
 
-use egui::{Key, Modal, Modifiers, TextEdit};
+use crate::text_field::text_field;
+use egui::{Key, Modal, Modifiers};
+use hitscope_core::obj::shortened;
 use hitscope_lab::element::Element;
 
 /// The forms of names.
@@ -41,7 +43,7 @@ impl GoToBox {
         let modal = Modal::new(egui::Id::unique("go to")).show(ctx, |ui| {
             ui.set_width((ui.ctx().content_rect().width() - 40.0).clamp(1.0, 360.0));
             let label = ui.label("Go to element");
-            let field = TextEdit::singleline(&mut self.text)
+            let field = text_field(&mut self.text)
                 .hint_text(FORMS)
                 .desired_width(f32::INFINITY);
             let field = ui.add(field).labelled_by(label.id);
@@ -91,7 +93,7 @@ fn element(text: &str) -> Result<Element, String> {
     };
     normal
         .parse()
-        .map_err(|_| format!("“{text}” is no element: type {FORMS}"))
+        .map_err(|_| format!("“{}” is no element: type {FORMS}", shortened(text)))
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 
 use super::search::rank;
 use super::{Commands, Entry};
-use egui::{Align, Align2, Key, Layout, Modal, Modifiers, ScrollArea, TextEdit, vec2};
+use crate::text_field::text_field;
+use egui::{Align, Align2, Key, Layout, Modal, Modifiers, ScrollArea, vec2};
 
 /// Width of the box in points, in a window that is wide enough.
 const WIDTH: f32 = 440.0;
@@ -76,7 +77,7 @@ impl Palette {
 
     fn field_ui(&mut self, ui: &mut egui::Ui) -> egui::Response {
         let label = ui.label("Find a command");
-        let field = TextEdit::singleline(&mut self.query)
+        let field = text_field(&mut self.query)
             .hint_text("View, kernel, file…")
             .desired_width(f32::INFINITY);
         let field = ui.add(field).labelled_by(label.id);
