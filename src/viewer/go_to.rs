@@ -1,7 +1,8 @@
 //! The box in which the user names an element to go to.
 
 use crate::text_field::text_field;
-use egui::{Key, Modal, Modifiers};
+use egui::text::CCursorRange;
+use egui::{Key, Modal, Modifiers, TextEdit};
 use hitscope_core::obj::shortened;
 use hitscope_lab::element::Element;
 
@@ -18,7 +19,7 @@ pub struct GoToBox {
 }
 
 impl GoToBox {
-    /// Opens the box with the last text.
+    /// Opens the box with the last text, which is selected.
     pub fn open(&mut self) {
         (self.is_open, self.problem) = (true, None);
     }
@@ -49,6 +50,7 @@ impl GoToBox {
             let field = ui.add(field).labelled_by(label.id);
             if ui.memory(|memory| memory.focused().is_none()) && !is_enter {
                 field.request_focus();
+                select_all(ui.ctx(), field.id, &self.text);
             }
             ui.label(format!(
                 "{FORMS}. Triangles and faces count from 0, vertices and lines from 1."
@@ -79,6 +81,14 @@ impl GoToBox {
             }
         }
     }
+}
+
+/// Selects the text of a field, so that typing replaces it.
+fn select_all(ctx: &egui::Context, field: egui::Id, text: &str) {
+    let mut state = TextEdit::load_state(ctx, field).unwrap_or_default();
+    let all = CCursorRange::select_all_str(text);
+    state.cursor.set_char_range(Some(all));
+    state.store(ctx, field);
 }
 
 /// The element that a text names: a kind and a number, or three numbers.

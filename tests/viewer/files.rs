@@ -2,7 +2,7 @@
 
 use crate::app::drop_file;
 use crate::commands::open_menu;
-use crate::harness::{Window, app, press, wait, write};
+use crate::harness::{Window, app, wait, write};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;

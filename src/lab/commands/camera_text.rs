@@ -70,7 +70,10 @@ fn of_camera<'w>(words: &[&'w str]) -> Vec<&'w str> {
         return words.to_vec();
     }
     let command = CameraText::command();
-    let names: Vec<&str> = command.get_arguments().filter_map(|a| a.get_long()).collect();
+    let names: Vec<&str> = command
+        .get_arguments()
+        .filter_map(|a| a.get_long())
+        .collect();
     let mut words = words.iter().copied();
     let mut found = Vec::new();
     while let Some(word) = words.next() {

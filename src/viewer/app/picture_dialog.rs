@@ -98,6 +98,8 @@ impl PictureDialog {
         let shown = egui::Window::new("Render a picture")
             .open(&mut is_open)
             .collapsible(false)
+            .pivot(egui::Align2::CENTER_CENTER)
+            .default_pos(ctx.content_rect().center())
             .resizable(false)
             .show(ctx, |ui| match &self.rendering {
                 Some(rendering) => {

@@ -70,10 +70,9 @@ fn is_of(view: &Turntable, camera: &Camera) -> bool {
     const ROUNDING: f64 = 1e-6;
     let shown = view.camera(camera.resolution());
     match (shown.projection(), camera.projection()) {
-        (
-            Projection::Orthographic { height },
-            Projection::Orthographic { height: wanted },
-        ) => (height - wanted).abs() <= ROUNDING * wanted,
+        (Projection::Orthographic { height }, Projection::Orthographic { height: wanted }) => {
+            (height - wanted).abs() <= ROUNDING * wanted
+        }
         _ => {
             let size = camera.exact_eye().length().max(view.distance);
             (shown.exact_eye() - camera.exact_eye()).length() <= ROUNDING * size

@@ -105,10 +105,13 @@ impl Palette {
         scrolls: bool,
     ) -> bool {
         let room = ui.ctx().content_rect().height() - TOP - 110.0;
+        let height = HEIGHT.min(room.max(40.0));
         let mut is_clicked = false;
         ui.add_space(4.0);
         ScrollArea::vertical()
-            .max_height(HEIGHT.min(room.max(40.0)))
+            .max_height(height)
+            // The box has had the height of the last list; a longer list makes it higher again.
+            .min_scrolled_height(height)
             .auto_shrink([false, true])
             .show(ui, |ui| {
                 if found.is_empty() {

@@ -31,6 +31,8 @@ pub struct CompareView<'a> {
     pub sizes: Option<[UVec2; 2]>,
     /// The figures of the differences.
     pub figures: Option<&'a Figures>,
+    /// Whether the figures are those of pictures with all samples.
+    pub are_figures_final: bool,
     /// The distances between the surfaces.
     pub distances: Option<&'a Result<MeshDistances, String>>,
     /// Why the distance map isn't shown.

@@ -146,9 +146,7 @@ fn pick_ui(ui: &mut egui::Ui, pick: &PickRow) -> Option<PicksChange> {
                 change = Some(PicksChange::Select(number));
             }
             let mut name = pick.name.clone();
-            let field = text_field(&mut name)
-                .hint_text("name")
-                .desired_width(90.0);
+            let field = text_field(&mut name).hint_text("name").desired_width(90.0);
             let field = ui.add(field);
             field.widget_info(|| {
                 let mut info = egui::WidgetInfo::text_edit(true, &pick.name, &name, "name");
