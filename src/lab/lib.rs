@@ -11,10 +11,12 @@
 //! | [`surface`] | the surface at a hit |
 //! | [`frames`] | rays of f64 in the file's coordinates, as the f32 rays that kernels trace |
 //! | [`json`] | JSON whose numbers read back as doubles |
+//! | [`json_error`] | errors of JSON texts in plain words |
 //! | [`measure`] | measurements of speed and accuracy |
 //! | [`picture_comparison`] | error figures of pictures |
 //! | [`progress`] | progress of long work, and its bar on the terminal |
 //! | [`requirement`] | the kernel tier that a scene requires |
+//! | [`rounding`] | numbers rounded for text |
 //! | [`second_opinion`] | what another reader finds in an OBJ file |
 //! | [`report`] | measurements as JSON, HTML and text |
 //! | [`viewpoint`] | the window's camera as plain data |
@@ -26,12 +28,14 @@ pub mod formula;
 pub mod frames;
 pub mod inspection;
 pub mod json;
+pub mod json_error;
 pub mod measure;
 pub mod oracle;
 pub mod picture_comparison;
 pub mod progress;
 pub mod report;
 pub mod requirement;
+pub mod rounding;
 pub mod second_opinion;
 pub mod surface;
 pub mod surface_comparison;

@@ -1,5 +1,6 @@
 //! The window's camera as plain data, for session files, undo, and `--session` on the command line.
 
+use crate::json_error::explained;
 use glam::{DVec3, UVec2};
 use hitscope_core::camera::{Turntable, UpAxis};
 use hitscope_core::{Camera, Scene};
@@ -101,7 +102,8 @@ impl Viewpoint {
             camera: Viewpoint,
         }
         check_format(text)?;
-        let session: Session = serde_json::from_str(text).map_err(not_a_session)?;
+        let session: Session =
+            serde_json::from_str(text).map_err(|error| unreadable(text, &error))?;
         session.sight.camera.check()?;
         Ok(session.sight.camera)
     }
@@ -117,7 +119,8 @@ pub fn check_format(text: &str) -> Result<(), String> {
     struct Version {
         hitscope: u32,
     }
-    let Version { hitscope } = serde_json::from_str(text).map_err(not_a_session)?;
+    let version = serde_json::from_str(text).map_err(|error| unreadable(text, &error));
+    let Version { hitscope } = version?;
     if hitscope > SESSION_FORMAT {
         return Err(format!(
             "written by a later version of hitscope: format {hitscope}, not {SESSION_FORMAT}"
@@ -126,6 +129,14 @@ pub fn check_format(text: &str) -> Result<(), String> {
     Ok(())
 }
 
-fn not_a_session(error: serde_json::Error) -> String {
-    format!("not a session file: {error}")
+/// Why a text isn't a session, and what the user can do.
+pub fn unreadable(text: &str, error: &serde_json::Error) -> String {
+    if text.trim().is_empty() {
+        return "the session file is empty; save the session again".to_owned();
+    }
+    let reason = explained(error);
+    format!(
+        "not a readable session, line {}: {reason}; correct that line, or save the session again",
+        error.line()
+    )
 }

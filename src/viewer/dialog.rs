@@ -1,6 +1,7 @@
 //! The system's dialogs for opening and saving files, and the path field that replaces them.
 
 use crate::task::{Task, TaskPanicked};
+use crate::text_field::text_field;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::pin::Pin;
@@ -156,7 +157,7 @@ impl FileDialog {
                 ui.add_space(6.0);
                 ui.horizontal(|ui| {
                     let label = ui.label("Path");
-                    let edit = egui::TextEdit::singleline(&mut field.path)
+                    let edit = text_field(&mut field.path)
                         .hint_text(spec.example)
                         .desired_width((ui.available_width() - 80.0).max(1.0));
                     let edit = ui.add(edit).labelled_by(label.id);

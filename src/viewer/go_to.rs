@@ -1,6 +1,9 @@
 //! The box in which the user names an element to go to.
 
+use crate::text_field::text_field;
+use egui::text::CCursorRange;
 use egui::{Key, Modal, Modifiers, TextEdit};
+use hitscope_core::obj::shortened;
 use hitscope_lab::element::Element;
 
 /// The forms of names.
@@ -16,7 +19,7 @@ pub struct GoToBox {
 }
 
 impl GoToBox {
-    /// Opens the box with the last text.
+    /// Opens the box with the last text, which is selected.
     pub fn open(&mut self) {
         (self.is_open, self.problem) = (true, None);
     }
@@ -41,12 +44,13 @@ impl GoToBox {
         let modal = Modal::new(egui::Id::unique("go to")).show(ctx, |ui| {
             ui.set_width((ui.ctx().content_rect().width() - 40.0).clamp(1.0, 360.0));
             let label = ui.label("Go to element");
-            let field = TextEdit::singleline(&mut self.text)
+            let field = text_field(&mut self.text)
                 .hint_text(FORMS)
                 .desired_width(f32::INFINITY);
             let field = ui.add(field).labelled_by(label.id);
             if ui.memory(|memory| memory.focused().is_none()) && !is_enter {
                 field.request_focus();
+                select_all(ui.ctx(), field.id, &self.text);
             }
             ui.label(format!(
                 "{FORMS}. Triangles and faces count from 0, vertices and lines from 1."
@@ -79,6 +83,14 @@ impl GoToBox {
     }
 }
 
+/// Selects the text of a field, so that typing replaces it.
+fn select_all(ctx: &egui::Context, field: egui::Id, text: &str) {
+    let mut state = TextEdit::load_state(ctx, field).unwrap_or_default();
+    let all = CCursorRange::select_all_str(text);
+    state.cursor.set_char_range(Some(all));
+    state.store(ctx, field);
+}
+
 /// The element that a text names: a kind and a number, or three numbers.
 fn element(text: &str) -> Result<Element, String> {
     let words: Vec<&str> = text
@@ -91,7 +103,7 @@ fn element(text: &str) -> Result<Element, String> {
     };
     normal
         .parse()
-        .map_err(|_| format!("“{text}” is no element: type {FORMS}"))
+        .map_err(|_| format!("“{}” is no element: type {FORMS}", shortened(text)))
 }
 
 #[cfg(test)]

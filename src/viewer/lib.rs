@@ -23,6 +23,7 @@
 //! | [`picks`], [`measuring`], [`go_to`] | the list of picks; measurements between them; going to an element |
 //! | [`face_lookup`], [`flaw_place`] | the picked face in its file; the place of a flaw |
 //! | [`numbers`], [`theme`] | number formatting; colours |
+//! | [`number_field`], [`text_field`] | fields for numbers and for text |
 //! | [`panels`], [`tab`] | the contents and names of the side panel's tabs |
 //! | [`settings`], [`preferences`] | how the scene is shown; preferences of the window |
 //! | [`quality`] | sets of settings from a draft to exact |
@@ -55,6 +56,7 @@ pub mod log_links;
 pub mod look;
 pub mod man;
 pub mod measuring;
+pub mod number_field;
 pub mod numbers;
 pub mod offscreen;
 pub mod opening;
@@ -75,6 +77,7 @@ pub mod storage;
 mod subcommand;
 pub mod tab;
 pub mod task;
+pub mod text_field;
 pub mod theme;
 mod times;
 pub mod toasts;

@@ -1,5 +1,6 @@
 //! Links in messages, to the files, parts and elements that the text names.
 
+use crate::session::is_session;
 use hitscope_lab::element::Element;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -22,6 +23,12 @@ pub struct Link {
     pub range: Range<usize>,
     /// The target.
     pub target: Target,
+}
+
+impl Link {
+    fn is_of_session(&self) -> bool {
+        matches!(&self.target, Target::File(path, _) if is_session(path))
+    }
 }
 
 /// A word that precedes a number, and the element that both name.
@@ -47,6 +54,10 @@ pub fn links(text: &str, is_file: impl Fn(&Path) -> bool) -> Vec<Link> {
         return Vec::from_iter(is_file(Path::new(path)).then_some(Link { range, target }));
     }
     let mut links = Vec::from_iter(file_at_start(text, is_file));
+    // The lines of a session, a text file, aren't those of the mesh.
+    if links.iter().any(Link::is_of_session) {
+        return links;
+    }
     let mut at = links.first().map_or(0, |link| link.range.end);
     while let Some(rest) = text.get(at..) {
         let Some(start) = rest.find(|c: char| c.is_ascii_alphabetic()) else {
@@ -137,6 +148,10 @@ mod tests {
             found("a/mesh.obj: too short"),
             [("a/mesh.obj".to_owned(), file("a/mesh.obj", None))]
         );
+        let is_session = |path: &Path| path == Path::new("x.hitscope");
+        let links = links("x.hitscope: not a session, line 1: empty", is_session);
+        let targets: Vec<Target> = links.into_iter().map(|link| link.target).collect();
+        assert_eq!(targets, [file("x.hitscope", None)]);
         assert_eq!(
             found("Saved a b.png"),
             [("a b.png".to_owned(), file("a b.png", None))]

@@ -2,8 +2,9 @@
 //! its camera on the command line.
 //!
 //! Session files are JSON. Unknown fields are ignored; settings that are missing or that no control can set have their
-//! defaults.
+//! defaults, and those that have them aren't written.
 
+mod compact;
 mod picked_pixel;
 
 pub use hitscope_lab::viewpoint::Viewpoint;
@@ -53,13 +54,13 @@ pub struct Sight {
     /// The camera.
     pub camera: Viewpoint,
     /// How the scene is shown.
-    #[serde(default)]
+    #[serde(default, serialize_with = "compact::changed")]
     pub settings: Settings,
     /// The choices about the comparison.
-    #[serde(default)]
+    #[serde(default, serialize_with = "compact::changed")]
     pub comparison: Comparison,
     /// Hidden parts, and custom colours of parts.
-    #[serde(default)]
+    #[serde(default, serialize_with = "compact::changed")]
     pub parts: PartsChoice,
     /// The picked pixels.
     #[serde(default)]
@@ -109,8 +110,8 @@ impl Session {
 
     fn of_text(text: &str) -> Result<Self, String> {
         viewpoint::check_format(text)?;
-        let said = |error: serde_json::Error| format!("not a session file: {error}");
-        let mut session: Self = serde_json::from_str(text).map_err(said)?;
+        let session = serde_json::from_str(text);
+        let mut session: Self = session.map_err(|error| viewpoint::unreadable(text, &error))?;
         if session.file.as_deref().is_some_and(is_session) {
             return Err("its file is a session, not a mesh or a scene".to_owned());
         }
@@ -138,7 +139,7 @@ impl Session {
             let whole = absolute(path);
             *path = whole.strip_prefix(folder).unwrap_or(&whole).to_owned();
         }
-        let text = serde_json::to_string_pretty(&self).map_err(|error| error.to_string())?;
+        let text = compact::text(&self).map_err(|error| error.to_string())?;
         Ok(text + "\n")
     }
 
@@ -164,6 +165,7 @@ pub fn is_session(path: &Path) -> bool {
 mod tests {
     use super::*;
     use crate::document::embedded_scene;
+    use crate::overlay::wireframe::WIREFRAME;
     use glam::{DVec3, UVec2};
     use hitscope_core::Scene;
     use hitscope_core::camera::Turntable;
@@ -174,12 +176,16 @@ mod tests {
         turntable.zoom(0.7, DVec3::new(0.1, 0.2, 0.3));
         let origin = scene.mesh().origin();
         let camera = turntable.camera(UVec2::new(64, 48));
+        let mut settings = Settings {
+            file_view: Some("path"),
+            is_smooth: true,
+            ..Settings::default()
+        };
+        settings.overlays.set_on(&WIREFRAME, true);
+        settings.overlays.state_mut(&WIREFRAME).width_px = 2.3;
         let sight = Sight {
             camera: Viewpoint::of(&turntable, origin),
-            settings: Settings {
-                file_view: Some("path"),
-                ..Settings::default()
-            },
+            settings,
             comparison: Comparison {
                 is_on: true,
                 mesh_file: Some("/a/b/other.obj".into()),
@@ -212,6 +218,19 @@ mod tests {
     }
 
     #[test]
+    fn a_session_has_no_defaults_and_a_line_for_each_list() {
+        let loaded = embedded_scene();
+        let text = session(&loaded.scene).text_at(Path::new("x"));
+        let text = text.expect("UTF-8");
+        assert!(text.contains("\"pixel\": [3, 4]"), "{text}");
+        assert!(text.contains("\"width_px\": 2.3"), "{text}");
+        for default in ["ao_distance", "gain", "normals"] {
+            assert!(!text.contains(default), "{default}: {text}");
+        }
+        assert!(text.len() < 2500, "{text}");
+    }
+
+    #[test]
     fn files_below_the_sessions_folder_have_relative_paths() {
         let loaded = embedded_scene();
         for (at, expected) in [
@@ -240,8 +259,13 @@ mod tests {
             ("\"hitscope\": 1", "\"hitscope\": 2", "a later version"),
             ("\"distance\": ", "\"distance\": -", "distance"),
             ("\"distance\": ", "\"distance\": x", "line"),
-            ("\"is_smooth\": false", "\"is_smooth\": 3", "line"),
-            ("\"sight\"", "\"sights\"", "missing field `sight`"),
+            (
+                "\"is_smooth\": true",
+                "\"is_smooth\": 3",
+                "expected true or false, found 3",
+            ),
+            ("\"sight\"", "\"sights\"", "“sight” is missing"),
+            (&good, " \n", "empty"),
         ] {
             let error = with(from, to);
             assert!(error.contains(reason), "{to}: {error}");

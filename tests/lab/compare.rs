@@ -84,7 +84,7 @@ fn one_side_and_equal_files_and_the_text() {
         "faces 6 7 +1",
         "only in A part front",
         "from A to B, from 8 vertices and 500 points",
-        "max 2.500000e-1, 1.325e-1 of the diagonal",
+        "max 0.250000, 0.1325 of the diagonal",
         "both ways",
     ] {
         let words: Vec<&str> = line.split(' ').collect();

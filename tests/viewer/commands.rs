@@ -117,6 +117,37 @@ fn a_command_that_cannot_be_run_is_disabled_in_its_menu_and_its_key_says_why() {
 }
 
 #[test]
+fn keys_show_the_next_and_the_previous_view() {
+    let Some(mut window) = bare() else { return };
+    let view = |window: &Window| window.state().settings().view().name;
+    let first = view(&window);
+    press(&mut window, Key::V);
+    assert_ne!(view(&window), first);
+    let back = |window: &mut Window| {
+        window.key_press_modifiers(Modifiers::SHIFT, Key::V);
+        window.run_steps(2);
+    };
+    back(&mut window);
+    assert_eq!(view(&window), first);
+    back(&mut window);
+    press(&mut window, Key::V);
+    assert_eq!(view(&window), first);
+}
+
+#[test]
+fn a_message_about_an_obstacle_disappears_with_the_obstacle() {
+    let Some(mut window) = bare() else { return };
+    press(&mut window, Key::X);
+    let notice = window.state().notice().expect("a reason");
+    assert!(notice.contains("Nothing is compared"), "{notice}");
+    window.run_steps(3);
+    assert!(window.state().notice().is_some());
+    press(&mut window, Key::C);
+    window.run_steps(2);
+    assert_eq!(window.state().notice(), None);
+}
+
+#[test]
 fn the_palette_finds_a_command_by_a_part_of_its_title_and_enter_runs_it() {
     let Some(mut window) = bare() else { return };
     search(&mut window, "wire");

@@ -2,7 +2,7 @@
 
 use crate::app::drop_file;
 use crate::commands::open_menu;
-use crate::harness::{Window, app, press, wait, write};
+use crate::harness::{Window, app, wait, write};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
@@ -93,9 +93,8 @@ fn a_file_alone_in_its_folder_gives_a_message() {
     };
     wait_for(&mut window, "one.obj");
     window.key_press_modifiers(Modifiers::COMMAND, Key::ArrowRight);
-    wait(&mut window, "the message", |app| app.notice().is_some());
-    let notice = window.state().notice().expect("a message");
-    assert!(notice.contains("no other mesh"), "{notice}");
-    press(&mut window, Key::Escape);
+    wait(&mut window, "the message", |app| !app.toasts().is_empty());
+    let toasts = window.state().toasts();
+    assert!(toasts[0].contains("no other mesh"), "{toasts:?}");
     assert_eq!(window.state().document().name(), "one.obj");
 }

@@ -10,6 +10,8 @@ mod accessibility;
 mod compared_sides;
 // Comparisons with another view, kernel, mesh or picture.
 mod comparing;
+// Comparisons that are incomplete.
+mod comparison_states;
 // The program's exit statuses and its behaviour without a display.
 mod cli;
 // Commands by key, tool bar, menu and palette; the help sheet.
@@ -74,6 +76,8 @@ mod sessions;
 // Validation of the shaders without a GPU.
 mod shaders;
 mod shown;
+// Sizes and places of the tool bar, the palette, the help sheet and dialogs.
+mod sheets;
 // `trace` on a pipe.
 mod trace;
 // Comparison of rasterized and traced triangles.

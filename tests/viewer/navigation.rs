@@ -46,6 +46,30 @@ fn drag(window: &mut Window, from: egui::Pos2, button: PointerButton, modifiers:
 }
 
 #[test]
+fn digits_orbit_by_15_degrees_and_look_from_a_corner() {
+    let Some(mut window) = bare() else { return };
+    press(&mut window, Key::Num1);
+    let degrees = |window: &Window| {
+        let turntable = turntable(window);
+        [turntable.yaw_radians, turntable.pitch_radians].map(|x| x.to_degrees().round())
+    };
+    for (key, expected) in [
+        (Key::Num6, [15.0, 0.0]),
+        (Key::Num8, [15.0, 15.0]),
+        (Key::Num4, [0.0, 15.0]),
+        (Key::Num2, [0.0, 0.0]),
+        (Key::Num9, [45.0, 35.0]),
+    ] {
+        press(&mut window, key);
+        assert_eq!(degrees(&window), expected, "{key:?}");
+    }
+    for _ in 0..9 {
+        press(&mut window, Key::Num8);
+    }
+    assert_eq!(degrees(&window), [45.0, 90.0]);
+}
+
+#[test]
 fn a_view_is_reached_in_a_quarter_of_a_second_and_input_ends_the_way() {
     let Some(mut window) = bare() else { return };
     choose(&mut window, "Reduced motion");

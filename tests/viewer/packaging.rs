@@ -100,12 +100,20 @@ fn the_desktop_file_starts_the_program_and_belongs_to_its_window() {
     // X11 finds the file by the window's class, Wayland by its own name; both are the window's id.
     assert_eq!(value(&desktop, "StartupWMClass"), APP_ID);
     assert!(file(&format!("packaging/linux/{APP_ID}.desktop")).exists());
-    assert_eq!(value(&desktop, "MimeType"), "model/obj;");
+    let session = format!("application/x-{}-session", about::NAME);
+    let types = value(&desktop, "MimeType");
+    assert_eq!(types, format!("model/obj;{session};"));
     assert_eq!(
         value(&linux("hitscope.thumbnailer"), "MimeType"),
         "model/obj;"
     );
-    assert!(linux("hitscope.xml").contains(r#"<mime-type type="model/obj">"#));
+    let mime_types = linux("hitscope.xml");
+    for known in types.split_terminator(';') {
+        let definition = format!("<mime-type type=\"{known}\">");
+        assert!(mime_types.contains(&definition), "{known}");
+    }
+    let pattern = format!("<glob pattern=\"*.{}\"/>", hitscope::session::EXTENSION);
+    assert!(mime_types.contains(&pattern));
 }
 
 #[test]

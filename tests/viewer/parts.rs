@@ -1,6 +1,6 @@
 //! Tests of the list of parts: hidden parts across a reload, custom colours, undo and sessions.
 
-use crate::harness::{Window, app_started, press, settle, wait, write};
+use crate::harness::{Window, app_started, click, in_picture, press, settle, wait, write};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
@@ -128,4 +128,19 @@ fn hidden_parts_and_custom_colours_are_saved_in_the_session() {
     let read: hitscope::session::Sight = serde_json::from_str(&text).expect("what was written");
     assert_eq!(read, sight);
     assert!(!read.parts.shows_all());
+}
+
+#[test]
+fn a_click_on_the_picture_leaves_the_list_of_parts_open() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = write(&folder, "mesh.obj", MESH);
+    let Some(mut window) = window(Some(path)) else {
+        return;
+    };
+    settle(&mut window, "mesh.obj");
+    let at = in_picture(&window, 0.5, 0.5);
+    click(&mut window, at);
+    wait(&mut window, "the pick", |app| app.inspection().is_some());
+    assert_eq!(window.state().preferences().tab, Tab::Parts);
+    window.get_by_label("Search for a part");
 }

@@ -244,6 +244,34 @@ fn another_file_clears_the_steps_and_a_reload_keeps_them() {
 }
 
 #[test]
+fn a_session_that_cannot_be_opened_is_named_with_a_way_out() {
+    let Some((mut window, folder)) = opened() else {
+        return;
+    };
+    let session = Session::new(
+        Some(folder.path().join("gone.obj")),
+        window.state().sight(),
+        true,
+        window.state().preferences().tab,
+    );
+    let path = folder.path().join("a.hitscope");
+    let text = session.text_at(&path).expect("UTF-8");
+    write(&folder, "a.hitscope", &text);
+    write(&folder, "empty.hitscope", "");
+    for (name, way_out) in [
+        ("a.hitscope", "put it back"),
+        ("empty.hitscope", "save the session again"),
+    ] {
+        drop_file(&mut window, folder.path().join(name));
+        let is_told = |app: &App| app.notice().is_some_and(|notice| notice.contains(name));
+        wait(&mut window, name, is_told);
+        let notice = window.state().notice().expect("an error");
+        assert!(notice.contains(way_out), "{notice}");
+        assert_eq!(window.state().document().name(), "mesh.obj");
+    }
+}
+
+#[test]
 fn the_command_line_takes_the_camera_of_a_session_to_the_last_bit() {
     let Some((mut window, folder)) = opened() else {
         return;
@@ -270,5 +298,5 @@ fn the_command_line_takes_the_camera_of_a_session_to_the_last_bit() {
         ..CameraArgs::default()
     };
     let error = args.check().expect_err("not a session").to_string();
-    assert!(error.contains("not a session file"), "{error}");
+    assert!(error.contains("not a readable session"), "{error}");
 }

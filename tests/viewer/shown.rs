@@ -2,6 +2,7 @@
 
 use crate::harness::{Window, app_started, click, in_picture, wait};
 use crate::pointer::on_the_knot;
+use egui::{Event, Key};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec3, UVec2};
 use hitscope::app::{App, StartOptions};
@@ -40,6 +41,18 @@ fn press_button(window: &mut Window, label: &str) {
     window.run_steps(10);
     window.get_by_label(label).click();
     settle(window);
+}
+
+/// Replaces the number in a field.
+fn type_number(window: &mut Window, label: &str, text: &str) {
+    window.get_by_label(label).scroll_to_me();
+    window.run_steps(10);
+    window.get_by_label(label).click();
+    window.run_steps(2);
+    window.event(Event::Text(text.to_owned()));
+    window.run_steps(2);
+    window.key_press(Key::Enter);
+    window.run_steps(3);
 }
 
 fn pixels(window: &Window) -> Vec<[u8; 4]> {
@@ -105,6 +118,33 @@ fn a_plane_removes_a_part_of_the_picture_and_picks_obey_it() {
     assert!((0.2..0.9).contains(&other), "{other}");
     press_button(&mut window, "By a plane");
     assert!(pixels(&window) == whole);
+}
+
+#[test]
+fn a_number_that_gives_no_clip_leaves_the_old_one() {
+    let Some(mut window) = window("triangle", Tab::Display) else {
+        return;
+    };
+    press_button(&mut window, "By a plane");
+    let before = window.state().settings().clip.clone();
+    for (field, text) in [
+        ("Exact offset", "nan"),
+        ("Exact offset", "1e400"),
+        ("Exact offset", "-inf"),
+        ("Normal: x", "0"),
+        ("Normal: x", "nan"),
+        ("Normal: y", "inf"),
+    ] {
+        type_number(&mut window, field, text);
+        let app = window.state();
+        assert_eq!(app.settings().clip, before, "{field}: {text}");
+        assert_eq!(app.notice(), None, "{field}: {text}");
+    }
+    // Begins with a zero.
+    type_number(&mut window, "Normal: x", "0.5");
+    assert_eq!(window.state().settings().clip.normal, DVec3::X * 0.5);
+    type_number(&mut window, "Exact offset", "0.25");
+    assert_eq!(window.state().settings().clip.offset, 0.25);
 }
 
 #[test]

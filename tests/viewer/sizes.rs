@@ -48,6 +48,29 @@ fn many_sizes_and_scales_while_rays_are_traced_end_with_the_right_picture() {
 }
 
 #[test]
+fn a_camera_that_frames_the_scene_frames_it_in_a_narrower_picture_and_another_one_stays() {
+    let Some(mut window) = app(None) else { return };
+    press(&mut window, egui::Key::Home);
+    let wide = *window.state().turntable();
+    let narrow = |window: &mut Window, width: f32| {
+        window.set_size(vec2(width, 600.0));
+        window.run_steps(5);
+        *window.state().turntable()
+    };
+    let framed = narrow(&mut window, 500.0);
+    assert!(framed.distance > 1.2 * wide.distance);
+    let mut expected = framed;
+    let app = window.state();
+    let bounds = app.document().loaded.scene.bounds_with_elements();
+    expected.frame(bounds, app.film().size());
+    assert_eq!(framed, expected);
+    assert_eq!(narrow(&mut window, 800.0), wide);
+    press(&mut window, egui::Key::Num8);
+    let moved = *window.state().turntable();
+    assert_eq!(narrow(&mut window, 500.0), moved);
+}
+
+#[test]
 fn a_minimised_window_keeps_running_and_shows_its_picture_afterwards() {
     let Some(mut window) = app(None) else { return };
     // As winit reports a minimised window on Windows.

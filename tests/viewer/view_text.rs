@@ -1,10 +1,13 @@
 //! Tests of the view as text: copied to the clipboard, pasted from it, and read by `render`.
 
-use crate::harness::{Window, bare, press};
+use crate::harness::{Window, bare, press, wait};
 use egui::{Event, Key, Modifiers, OutputCommand};
 use glam::{DVec2, UVec2};
 use hitscope_core::Camera;
 use hitscope_core::camera::UpAxis;
+
+/// The toast after a view was pasted.
+const PASTED: &str = "Moved the camera to the pasted view";
 
 /// Copies the view by its key. One frame, so that its output can be read.
 fn copied(window: &mut Window) -> String {
@@ -125,7 +128,57 @@ fn a_pasted_view_needs_an_eye_alone_and_a_text_that_is_no_view_gives_a_reason() 
         assert_eq!(*window.state().turntable(), before);
         press(&mut window, Key::Escape);
     }
+    // A view closes the message about the last text.
+    paste(&mut window, "hello world");
     paste(&mut window, "--eye 0,0,9");
     assert_eq!(window.state().notice(), None);
+    assert_eq!(window.state().toasts().last(), Some(&PASTED));
     assert_ne!(*window.state().turntable(), before);
+}
+
+#[test]
+fn a_view_with_extreme_numbers_is_shown_or_refused() {
+    let Some(mut window) = bare() else { return };
+    let far = "--eye 1e38,1,1 --target 0,0,0 --fov 179";
+    paste(&mut window, far);
+    let app = window.state();
+    assert_eq!((app.notice(), app.toasts()), (None, vec![PASTED]));
+    let eye = app.turntable().camera(UVec2::new(8, 8)).exact_eye();
+    assert!((eye.x - 1e38).abs() < 1e30, "{eye}");
+    let before = *app.turntable();
+    for too_far in ["--eye 3e38,1,1 --target 0,0,0", "--eye 0,0,9 --ortho 1e38"] {
+        paste(&mut window, too_far);
+        let notice = window.state().notice().expect("a reason");
+        assert!(notice.contains("too far away"), "{notice}");
+        assert_eq!(*window.state().turntable(), before);
+        press(&mut window, Key::Escape);
+    }
+    press(&mut window, Key::Home);
+    wait(&mut window, "the mesh", |app| {
+        app.turntable().distance < 1e3 && app.is_settled()
+    });
+}
+
+#[test]
+fn a_long_pasted_text_is_shortened_in_the_message() {
+    let Some(mut window) = bare() else { return };
+    paste(&mut window, &"x".repeat(3_000_000));
+    let notice = window.state().notice().expect("a reason");
+    assert!(
+        notice.contains('…') && notice.len() < 300,
+        "{}",
+        notice.len()
+    );
+}
+
+#[test]
+fn a_whole_command_is_pasted_as_its_view() {
+    let Some(mut window) = bare() else { return };
+    paste(
+        &mut window,
+        "hitscope render mesh.obj -o x.png --eye 0,0,9 --fov 25",
+    );
+    assert_eq!(window.state().notice(), None);
+    let turntable = window.state().turntable();
+    assert!((turntable.fov_y_radians.to_degrees() - 25.0).abs() < 1e-12);
 }

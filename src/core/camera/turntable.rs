@@ -14,7 +14,7 @@ mod zoom;
 use super::{Camera, CameraError, Projection};
 use crate::aabb::Aabb;
 use glam::{DMat3, DVec2, DVec3, UVec2};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 /// The axis of the file that points up. OBJ doesn't define it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,6 +52,8 @@ pub enum StandardView {
     Top,
     /// From below.
     Bottom,
+    /// From above, the front and the right, so that the three axes have the same length in an orthographic picture.
+    Isometric,
 }
 
 /// A camera on a sphere around a pivot, with a level horizon unless a file's view is tilted.
@@ -258,6 +260,7 @@ impl Turntable {
             StandardView::Left => (3.0 * FRAC_PI_2, 0.0),
             StandardView::Top => (0.0, FRAC_PI_2),
             StandardView::Bottom => (0.0, -FRAC_PI_2),
+            StandardView::Isometric => (FRAC_PI_4, FRAC_1_SQRT_2.atan()),
         };
     }
 

@@ -66,7 +66,7 @@ pub(crate) use materials::{Picture, linear_picture, read_past, read_picture};
 pub(crate) use origin::origin_near;
 pub use report::{Dropped, LoadReport};
 pub use steps::LoadSteps;
-pub use tally::LineRuns;
+pub use tally::{LineRuns, shortened};
 pub use vertex_source::{VertexKey, VertexSource, vertex_source};
 
 use crate::mesh::TriangleMesh;

@@ -118,7 +118,7 @@ pub(super) fn lines_or_points(count: usize) -> String {
 }
 
 /// A word for messages, shortened to fit on a line.
-pub(super) fn shortened(word: &str) -> String {
+pub fn shortened(word: &str) -> String {
     const LENGTH: usize = 60;
     shortened_to(LENGTH, word)
 }

@@ -1,11 +1,13 @@
 //! A camera as text: the arguments that the commands read.
 
 use super::CameraArgs;
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use glam::DVec3;
 use hitscope_core::Camera;
 use hitscope_core::camera::Projection;
+use hitscope_core::obj::shortened;
 use std::fmt;
+use std::path::Path;
 
 /// The least distance from eye to target, relative to the coordinates of the eye. The direction between points that
 /// are closer would lose more digits than pictures need.
@@ -44,20 +46,47 @@ impl CameraArgs {
         }
     }
 
-    /// Reads arguments, such as `--eye 1,2,3 --fov 40`.
+    /// Reads arguments, such as `--eye 1,2,3 --fov 40`, or those of a whole command of hitscope.
     ///
     /// # Errors
-    /// What is wrong with the text, in a line.
+    /// What is wrong with the text, in a short line.
     pub fn from_text(text: &str) -> Result<Self, String> {
-        let parsed = CameraText::try_parse_from(text.split_whitespace());
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let parsed = CameraText::try_parse_from(of_camera(&words));
         parsed.map(|text| text.camera).map_err(|error| {
             let message = error.to_string();
             // The usage follows after an empty line.
             let first = message.split("\n\n").next().unwrap_or_default();
-            let words: Vec<&str> = first.split_whitespace().collect();
+            let words: Vec<String> = first.split_whitespace().map(shortened).collect();
             words.join(" ").trim_start_matches("error: ").to_owned()
         })
     }
+}
+
+/// The camera's arguments in a command of hitscope; all words if they aren't such a command.
+fn of_camera<'w>(words: &[&'w str]) -> Vec<&'w str> {
+    let program = words.first().and_then(|word| Path::new(word).file_stem());
+    if program.is_none_or(|program| program != "hitscope") {
+        return words.to_vec();
+    }
+    let command = CameraText::command();
+    let names: Vec<&str> = command
+        .get_arguments()
+        .filter_map(|a| a.get_long())
+        .collect();
+    let mut words = words.iter().copied();
+    let mut found = Vec::new();
+    while let Some(word) = words.next() {
+        let option = word.strip_prefix("--").unwrap_or_default();
+        let (name, value) = option.split_once('=').unzip();
+        if names.contains(&name.unwrap_or(option)) {
+            found.push(word);
+            if value.is_none() {
+                found.extend(words.next());
+            }
+        }
+    }
+    found
 }
 
 impl fmt::Display for CameraArgs {
@@ -137,6 +166,28 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn the_camera_of_a_whole_command_is_read() {
+        let expected = CameraArgs::from_text("--eye 1,2,-3 --fov 25").expect("a camera");
+        for text in [
+            "hitscope --eye 1,2,-3 --fov 25",
+            "hitscope mesh.obj --eye=1,2,-3 --fov 25",
+            "hitscope render 'a b.obj' -o x.png --samples 4 --eye 1,2,-3 --wireframe --fov=25",
+            "./target/release/hitscope inspect mesh.obj --eye 1,2,-3 --pixel 3,4 --fov 25 --json",
+        ] {
+            let args = CameraArgs::from_text(text).expect(text);
+            assert_eq!(args.to_string(), expected.to_string(), "{text}");
+        }
+        let error = CameraArgs::from_text("hitscope render mesh.obj --eye 1,2");
+        assert!(error.expect_err("a reason").contains("three numbers"));
+    }
+
+    #[test]
+    fn a_long_text_is_shortened_in_the_reason() {
+        let reason = CameraArgs::from_text(&"x".repeat(3_000_000)).expect_err("no camera");
+        assert!(reason.contains('…') && reason.len() < 200, "{reason}");
     }
 
     #[test]

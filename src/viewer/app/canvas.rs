@@ -196,7 +196,6 @@ impl App {
             self.seen.settings.overlays.turn_off_added();
             self.error(error);
         }
-        labels.extend(self.magnified_label());
         self.pixel_values_ui(ui, canvas, &camera);
         labels_ui(ui, canvas, &camera, &labels);
         self.scale_legend_ui(ui, canvas);

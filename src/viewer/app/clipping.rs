@@ -27,7 +27,7 @@ impl App {
         let used = clip.and_then(|clip| self.open.document.use_clip(clip.as_ref()));
         used.unwrap_or_else(|error| {
             self.seen.settings.clip.shape = ClipShape::None;
-            self.error(format!("the clip: {error}"));
+            self.error(format!("Clip: {error}"));
             true
         })
     }

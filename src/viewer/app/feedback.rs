@@ -11,11 +11,19 @@ use hitscope_core::loading::is_scene_file;
 use hitscope_lab::element::Element;
 use std::path::Path;
 
-/// A message that stays until the user closes it.
+/// A message that stays until the user closes it, or until its cause is gone.
 pub(super) struct Notice {
     pub text: String,
     pub kind: NoticeKind,
+    /// The obstacle that the message is about.
+    cause: Option<Obstacle>,
 }
+
+/// Why something can't be done; `None` if it can.
+type Obstacle = fn(&App) -> Option<&'static str>;
+
+/// The most characters of an error or a warning, so that the picture stays visible.
+const LONGEST: usize = 800;
 
 /// The kind of a notice.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -38,9 +46,29 @@ impl App {
         self.notify(NoticeKind::Error, text.to_string());
     }
 
-    /// Shows why a command can't be run.
-    pub(crate) fn refuse(&mut self, obstacle: &str) {
-        self.warn(obstacle);
+    /// Shows why a command can't be run, until it can.
+    pub(crate) fn refuse_command(&mut self, obstacle: Obstacle) {
+        if let Some(reason) = obstacle(self) {
+            self.warn(reason);
+            if let Some(notice) = &mut self.feedback.notice {
+                notice.cause = Some(obstacle);
+            }
+        }
+    }
+
+    /// Shows for some seconds why something can't be done.
+    pub(super) fn refuse(&mut self, reason: &str) {
+        self.note(Kind::Warning, reason);
+        self.feedback.toasts.add(reason);
+    }
+
+    /// Closes the notice if its cause is gone.
+    pub(super) fn check_notice(&mut self) {
+        let notice = self.feedback.notice.as_ref();
+        let cause = notice.and_then(|notice| notice.cause);
+        if cause.is_some_and(|obstacle| obstacle(self).is_none()) {
+            self.feedback.notice = None;
+        }
     }
 
     /// Shows a warning.
@@ -82,12 +110,20 @@ impl App {
     }
 
     fn notify(&mut self, kind: NoticeKind, text: String) {
+        let text = match text.char_indices().nth(LONGEST) {
+            Some((end, _)) => format!("{}…", &text[..end]),
+            None => text,
+        };
         let logged = match kind {
             NoticeKind::Error => Kind::Error,
             NoticeKind::Warning => Kind::Warning,
         };
         self.note(logged, text.as_str());
-        self.feedback.notice = Some(Notice { text, kind });
+        self.feedback.notice = Some(Notice {
+            text,
+            kind,
+            cause: None,
+        });
     }
 }
 

@@ -112,6 +112,12 @@ impl App {
                 if !path.exists() && self.preferences.recent.remove(&path) {
                     message += " (it is no longer listed under Open recent)";
                 }
+                if session.is_some() {
+                    let session = shown(&self.open.session_path);
+                    message += &format!(
+                        ". The session {session} needs this file: put it back, or write its new place to “file” in the session"
+                    );
+                }
                 if let Some(screenshot) = &self.screenshot {
                     screenshot.fail(ctx, message.clone());
                 }

@@ -39,10 +39,7 @@ impl App {
         match self.view_of_file() {
             Some(view) if view != self.seen.turntable => self.use_view(view),
             _ if self.shows_nothing() => self.use_default_view(),
-            _ => {
-                let bounds = self.open.document.loaded.scene.bounds_with_elements();
-                self.seen.turntable.frame(bounds, self.shown.resolution);
-            }
+            _ => self.seen.turntable = self.framed(),
         }
     }
 
@@ -54,19 +51,32 @@ impl App {
         turntable.set_scene(self.open.document.loaded.scene.bounds_with_elements());
     }
 
-    /// Sets the picture's size. The file's view, while it is shown, keeps the whole film in the picture.
+    /// Sets the picture's size. The file's view, while it is shown, keeps the whole film in the picture; a camera that frames
+    /// the scene frames it in the new size.
     pub(super) fn use_resolution(&mut self, resolution: UVec2) {
         if resolution == self.shown.resolution {
             return;
         }
         let is_files_view = self.view_of_file() == Some(self.seen.turntable);
+        let is_framed = self.framed() == self.seen.turntable;
         self.shown.resolution = resolution;
         if self.seen.is_unframed {
             self.use_first_camera();
         } else if let (true, Some(view)) = (is_files_view, self.view_of_file()) {
             self.use_view(view);
             self.history.absorb();
+        } else if is_framed && self.framed() != self.seen.turntable {
+            self.seen.turntable = self.framed();
+            self.history.absorb();
         }
+    }
+
+    /// The camera, moved so that it frames the scene.
+    fn framed(&self) -> Turntable {
+        let bounds = self.open.document.loaded.scene.bounds_with_elements();
+        let mut turntable = self.seen.turntable;
+        turntable.frame(bounds, self.shown.resolution);
+        turntable
     }
 
     fn use_view(&mut self, view: Turntable) {

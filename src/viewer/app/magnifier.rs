@@ -4,7 +4,6 @@ use super::App;
 use super::canvas::Canvas;
 use super::navigation::POINTS_PER_E;
 use super::pixel_values::PixelValues;
-use crate::overlay::{Label, Place};
 use egui::{Pos2, Rect, Response, Vec2, pos2};
 
 /// The side of the largest pixel, in points.
@@ -115,16 +114,16 @@ impl App {
         magnifier.zoom_at(within.to_pos2(), zoom, zoom);
     }
 
-    /// The label in a corner of the magnified picture.
-    pub(super) fn magnified_label(&self) -> Option<Label> {
+    /// The part of the status line about the magnified picture.
+    pub(super) fn magnified_part(&self) -> Option<String> {
         let magnifier = &self.shown.magnifier;
-        magnifier.is_on().then(|| Label {
-            place: Place::Corner { bar_px: None },
-            text: format!(
-                "Magnified {:.0}×; Esc shows the whole picture",
+        let text = || {
+            format!(
+                "magnified {:.0}×, Esc shows the whole picture",
                 magnifier.zoom
-            ),
-        })
+            )
+        };
+        magnifier.is_on().then(text)
     }
 
     /// The factor by which the picture is magnified; 1 for the whole picture.

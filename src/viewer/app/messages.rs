@@ -63,6 +63,7 @@ impl App {
             }
         }
         self.drop_hint_ui(ctx);
+        self.check_notice();
         self.notices_ui(ctx);
         self.feedback.toasts.toasts_ui(ctx, self.shown.canvas_rect);
         self.sheet_ui(ctx);

@@ -6,6 +6,7 @@ use crate::bindings::Verb;
 use egui::{Event, Key, MouseWheelUnit, PointerButton, Pos2, Response};
 use glam::{DVec2, DVec3, UVec2};
 use hitscope_core::camera::{StandardView, Turntable};
+use std::f64::consts::FRAC_PI_2;
 
 /// Time that a change of the view takes.
 const TRANSITION_SECS: f64 = 0.25;
@@ -132,6 +133,16 @@ impl App {
     /// Looks along an axis.
     pub(crate) fn look_from(&mut self, view: StandardView, ctx: &egui::Context) {
         self.animated(ctx, |app| app.seen.turntable.look_from(view));
+    }
+
+    /// Orbits by angles in degrees: to the right, and upwards as far as straight above.
+    pub(crate) fn orbit_by(&mut self, right: f64, up: f64, ctx: &egui::Context) {
+        self.animated(ctx, |app| {
+            let turntable = &mut app.seen.turntable;
+            turntable.turn(right.to_radians());
+            let pitch = turntable.pitch_radians + up.to_radians();
+            turntable.pitch_radians = pitch.clamp(-FRAC_PI_2, FRAC_PI_2);
+        });
     }
 
     /// Switches between a turntable and a trackball. A turntable has a level horizon.

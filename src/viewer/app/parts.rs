@@ -49,6 +49,7 @@ use hitscope_core::camera::{Turntable, UpAxis};
 use hitscope_core::film::ShownPixels;
 use hitscope_core::obj::LoadOptions;
 use hitscope_core::{Camera, Scene};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// What is open, and work on files.
@@ -62,6 +63,8 @@ pub(crate) struct Open {
     pub dialogs: Dialogs,
     /// The session file that is being read.
     pub session: Option<Task<Result<Session, String>>>,
+    /// The session file that was read last.
+    pub session_path: PathBuf,
     /// The session whose file is being loaded.
     pub loading_session: Option<Session>,
     /// The search for the next or the previous file of the folder.
@@ -83,6 +86,7 @@ impl Open {
             watch: None,
             dialogs: Dialogs::default(),
             session: None,
+            session_path: PathBuf::new(),
             loading_session: None,
             neighbours: Neighbours::default(),
             saving: None,

@@ -206,7 +206,7 @@ impl App {
         }
     }
 
-    /// Inspects a pixel of a side and opens the Inspect tab.
+    /// Inspects a pixel of a side and opens the Inspect tab, unless the list of parts is shown.
     pub(super) fn inspect(
         &mut self,
         side: Side,
@@ -219,7 +219,10 @@ impl App {
             pick.crossing = None;
         }
         self.start_picking(camera, pixel, None, ctx);
-        self.preferences.tab = Tab::Inspect;
+        // The list of parts has commands for the picked part.
+        if self.preferences.tab != Tab::Parts {
+            self.preferences.tab = Tab::Inspect;
+        }
     }
 
     /// Inspects the picked pixel again, or the one being inspected, in a scene whose origin has moved.

@@ -2,10 +2,11 @@
 
 use super::App;
 use super::pictures::free_path;
+use crate::number_field::number_field;
 use crate::offscreen;
 use crate::overlay::{OverlayInput, Overlays};
 use crate::task::{Task, TaskPanicked};
-use egui::{DragValue, ProgressBar};
+use egui::ProgressBar;
 use glam::{UVec2, Vec3};
 use hitscope_core::camera::MAX_SIDE;
 use hitscope_core::obj::shown;
@@ -97,6 +98,8 @@ impl PictureDialog {
         let shown = egui::Window::new("Render a picture")
             .open(&mut is_open)
             .collapsible(false)
+            .pivot(egui::Align2::CENTER_CENTER)
+            .default_pos(ctx.content_rect().center())
             .resizable(false)
             .show(ctx, |ui| match &self.rendering {
                 Some(rendering) => {
@@ -118,7 +121,7 @@ impl PictureDialog {
         ui.horizontal(|ui| {
             for (name, side) in [("Width", &mut self.size.x), ("Height", &mut self.size.y)] {
                 let label = ui.label(name);
-                let value = DragValue::new(side).range(1..=MAX_SIDE);
+                let value = number_field(side).range(1..=MAX_SIDE);
                 ui.add(value).labelled_by(label.id);
             }
             let button = ui.button("Size of the window's picture");
@@ -128,7 +131,7 @@ impl PictureDialog {
         });
         ui.horizontal(|ui| {
             let label = ui.label("Samples");
-            let samples = DragValue::new(&mut self.samples).range(1..=MAX_SAMPLES);
+            let samples = number_field(&mut self.samples).range(1..=MAX_SAMPLES);
             ui.add(samples).labelled_by(label.id);
         });
         ui.horizontal(|ui| {

@@ -142,6 +142,7 @@ impl App {
 
     /// Reads a session file in the background.
     pub(super) fn read_session(&mut self, path: PathBuf, ctx: &egui::Context) {
+        self.open.session_path.clone_from(&path);
         let read = move || Session::read(&path);
         self.open.session = Some(Task::spawn("session", ctx, read));
     }

@@ -59,6 +59,7 @@ impl App {
             let count = self.traced.tracer.non_finite() as usize;
             parts.insert(2, format!("{} not finite", counted(count, "sample")));
         }
+        parts.splice(0..0, self.magnified_part());
         if self.open.watch.as_ref().is_some_and(Watch::is_missing) {
             parts.insert(0, "the file is missing".to_owned());
         }

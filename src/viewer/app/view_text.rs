@@ -1,6 +1,7 @@
 //! The view as text: the arguments of `hitscope render`, copied to the clipboard and pasted from it.
 
 use super::App;
+use hitscope_core::Camera;
 use hitscope_core::camera::{Projection, Turntable};
 use hitscope_lab::commands::CameraArgs;
 
@@ -19,6 +20,8 @@ impl App {
             Ok(view) => {
                 self.seen.turntable = view;
                 self.seen.is_unframed = false;
+                self.feedback.notice = None;
+                self.tell("Moved the camera to the pasted view");
             }
             Err(reason) => self.error(format!(
                 "the clipboard holds no view, such as --eye 1,2,3 --target 0,0,0 --fov 40: {reason}"
@@ -53,6 +56,26 @@ impl App {
                 view.distance = 0.5 * height / (0.5 * view.fov_y_radians).tan();
             }
         }
-        Ok(view)
+        if is_of(&view, &camera) {
+            Ok(view)
+        } else {
+            Err("the camera would be too far away".to_owned())
+        }
+    }
+}
+
+/// Whether a turntable shows what a camera shows: it limits distances and heights.
+fn is_of(view: &Turntable, camera: &Camera) -> bool {
+    /// Far more than the rounding of the turntable's angles, and far less than a limit changes.
+    const ROUNDING: f64 = 1e-6;
+    let shown = view.camera(camera.resolution());
+    match (shown.projection(), camera.projection()) {
+        (Projection::Orthographic { height }, Projection::Orthographic { height: wanted }) => {
+            (height - wanted).abs() <= ROUNDING * wanted
+        }
+        _ => {
+            let size = camera.exact_eye().length().max(view.distance);
+            (shown.exact_eye() - camera.exact_eye()).length() <= ROUNDING * size
+        }
     }
 }

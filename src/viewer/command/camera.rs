@@ -15,10 +15,13 @@ const NAVIGATION: Place = Place::new(Menu::Camera, 4);
 /// The sets of pointer bindings.
 pub const BINDINGS: Place = Place::submenu(Menu::Camera, 4, "Mouse");
 
+/// The step of the keys that orbit, in degrees.
+const ORBIT_STEP: f64 = 15.0;
+
 pub(super) const ROWS: &[Command] = &[
     Command {
         name: "frame",
-        keys: &[key(Key::Home)],
+        keys: &[key(Key::Home), key(Key::Enter)],
         title: "Frame",
         tooltip: "Frames the whole scene; for a scene file, returns to the view of its sensor first",
         place: FRAME,
@@ -107,6 +110,41 @@ pub(super) const ROWS: &[Command] = &[
         "Bottom",
         "Looks from below",
         |app, ctx, _| app.look_from(StandardView::Bottom, ctx),
+    ),
+    look_from(
+        "isometric",
+        &[key(Key::Num9)],
+        "Isometric",
+        "Looks from above, the front and the right",
+        |app, ctx, _| app.look_from(StandardView::Isometric, ctx),
+    ),
+    look_from(
+        "orbit-left",
+        &[key(Key::Num4)],
+        "Orbit left",
+        "Orbits 15° to the left",
+        |app, ctx, _| app.orbit_by(-ORBIT_STEP, 0.0, ctx),
+    ),
+    look_from(
+        "orbit-right",
+        &[key(Key::Num6)],
+        "Orbit right",
+        "Orbits 15° to the right",
+        |app, ctx, _| app.orbit_by(ORBIT_STEP, 0.0, ctx),
+    ),
+    look_from(
+        "orbit-up",
+        &[key(Key::Num8)],
+        "Orbit up",
+        "Orbits 15° upwards",
+        |app, ctx, _| app.orbit_by(0.0, ORBIT_STEP, ctx),
+    ),
+    look_from(
+        "orbit-down",
+        &[key(Key::Num2)],
+        "Orbit down",
+        "Orbits 15° downwards",
+        |app, ctx, _| app.orbit_by(0.0, -ORBIT_STEP, ctx),
     ),
     Command {
         name: "orthographic",
@@ -220,7 +258,7 @@ const fn switch(
     }
 }
 
-/// A command that looks along an axis.
+/// A command that looks from another direction.
 const fn look_from(
     name: &'static str,
     keys: &'static [egui::KeyboardShortcut],

@@ -1,7 +1,9 @@
 //! Commands of the picture's colours, in the menu *View*.
 
+use super::keys::key;
 use super::{Command, Menu, Place, none};
 use crate::app::App;
+use egui::Key;
 use hitscope_core::integrator::Setting;
 
 const COLOURS: Place = Place::submenu(Menu::View, 6, "Colours");
@@ -29,7 +31,7 @@ pub(super) const ROWS: &[Command] = &[
     },
     Command {
         name: "tint-back-faces",
-        keys: &[],
+        keys: &[key(Key::B)],
         title: "Tint back faces",
         tooltip: "Mixes a colour into the back faces of the view Shaded",
         place: COLOURS,

@@ -95,9 +95,9 @@ impl Entry {
 
     /// Runs the command, or shows why it can't be run.
     pub fn run(&self, app: &mut App, ctx: &egui::Context, frame: &eframe::Frame) {
-        match self.obstacle {
-            None => (self.run)(app, ctx, frame),
-            Some(obstacle) => app.refuse(obstacle),
+        match self.row {
+            Some(row) if !self.is_enabled() => app.refuse_command(row.obstacle),
+            _ => (self.run)(app, ctx, frame),
         }
         ctx.request_repaint();
     }

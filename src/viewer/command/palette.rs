@@ -2,7 +2,8 @@
 
 use super::search::rank;
 use super::{Commands, Entry};
-use egui::{Align, Align2, Key, Layout, Modal, Modifiers, ScrollArea, TextEdit, vec2};
+use crate::text_field::text_field;
+use egui::{Align, Align2, Key, Layout, Modal, Modifiers, ScrollArea, vec2};
 
 /// Width of the box in points, in a window that is wide enough.
 const WIDTH: f32 = 440.0;
@@ -76,7 +77,7 @@ impl Palette {
 
     fn field_ui(&mut self, ui: &mut egui::Ui) -> egui::Response {
         let label = ui.label("Find a command");
-        let field = TextEdit::singleline(&mut self.query)
+        let field = text_field(&mut self.query)
             .hint_text("View, kernel, file…")
             .desired_width(f32::INFINITY);
         let field = ui.add(field).labelled_by(label.id);
@@ -104,10 +105,13 @@ impl Palette {
         scrolls: bool,
     ) -> bool {
         let room = ui.ctx().content_rect().height() - TOP - 110.0;
+        let height = HEIGHT.min(room.max(40.0));
         let mut is_clicked = false;
         ui.add_space(4.0);
         ScrollArea::vertical()
-            .max_height(HEIGHT.min(room.max(40.0)))
+            .max_height(height)
+            // The box has had the height of the last list; a longer list makes it higher again.
+            .min_scrolled_height(height)
             .auto_shrink([false, true])
             .show(ui, |ui| {
                 if found.is_empty() {

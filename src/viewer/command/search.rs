@@ -2,13 +2,19 @@
 
 /// How well a text matches a query; less is better, and `None` is no match.
 ///
-/// Best are texts that contain all words of the query, above all at the beginnings of words; then texts that contain
-/// the query's letters in their order. Upper and lower case count as the same.
+/// Best are titles, such as `Wireframe` in `View: Wireframe`, that begin with the query; then texts that contain all of its
+/// words, above all at the beginnings of words; then texts that contain its letters in their order. Upper and lower case
+/// count as the same.
 pub fn rank(query: &str, text: &str) -> Option<u32> {
     /// Any match by letters is worse than all matches by words.
     const BY_LETTERS: u32 = 1 << 20;
     let (query, text) = (query.to_lowercase(), text.to_lowercase());
-    by_words(&query, &text).or_else(|| Some(BY_LETTERS + by_letters(&query, &text)?))
+    let title = text.split_once(": ").map_or(&*text, |(_, title)| title);
+    if !query.trim().is_empty() && title.starts_with(query.trim()) {
+        return Some(0);
+    }
+    let by_words = by_words(&query, &text).map(|rank| 1 + rank);
+    by_words.or_else(|| Some(BY_LETTERS + by_letters(&query, &text)?))
 }
 
 /// The sum of the words' ranks if the text contains all of them.
@@ -59,6 +65,20 @@ mod tests {
         assert_eq!(found("normal view", &texts), ["View: Normals"]);
         assert_eq!(found("", &texts), texts);
         assert_eq!(found("xyz", &texts), [""; 0]);
+    }
+
+    #[test]
+    fn a_title_that_begins_with_the_query_is_best() {
+        let texts = [
+            "Compare with: Another file",
+            "Compare: Compare with a file…",
+            "File: Compare",
+        ];
+        let expected = [
+            "Compare: Compare with a file…",
+            "Compare with: Another file",
+        ];
+        assert_eq!(found("compare with a file", &texts), expected);
     }
 
     #[test]

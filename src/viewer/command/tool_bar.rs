@@ -6,28 +6,28 @@ use egui::{ComboBox, Frame, Margin, Panel, WidgetInfo};
 
 /// An item of the tool bar.
 enum Tool {
-    /// A button of the command with this name.
-    Button(&'static str),
+    /// A button of the command with this name, and its text if the title is long.
+    Button(&'static str, Option<&'static str>),
     /// A drop-down with a title for assistive technology, and the choices at a place of the menus.
     DropDown(&'static str, Place),
 }
 
 /// The items, from left to right.
 static TOOLS: &[Tool] = &[
-    Tool::Button("open"),
-    Tool::Button("frame"),
+    Tool::Button("open", None),
+    Tool::Button("frame", None),
     Tool::DropDown("View", VIEWS),
-    Tool::Button("smooth"),
-    Tool::Button("wireframe"),
-    Tool::Button("normals"),
-    Tool::Button("noise"),
-    Tool::Button("orthographic"),
-    Tool::Button("auto-rotation"),
-    Tool::Button("pause"),
-    Tool::Button("panel"),
+    Tool::Button("smooth", Some("Smooth")),
+    Tool::Button("wireframe", None),
+    Tool::Button("normals", None),
+    Tool::Button("noise", None),
+    Tool::Button("orthographic", Some("Ortho")),
+    Tool::Button("auto-rotation", Some("Rotate")),
+    Tool::Button("pause", None),
+    Tool::Button("panel", Some("Panel")),
 ];
 
-/// Shows the tool bar, which wraps to several rows in a narrow window.
+/// Shows the tool bar: one row in a window of 800 points, several in a narrower one.
 pub fn tool_bar_ui(ui: &mut egui::Ui, commands: &Commands) {
     let frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(6, 4));
     Panel::top("toolbar").frame(frame).show(ui, |ui| {
@@ -35,7 +35,7 @@ pub fn tool_bar_ui(ui: &mut egui::Ui, commands: &Commands) {
             ui.spacing_mut().item_spacing.x = 4.0;
             for tool in TOOLS {
                 match *tool {
-                    Tool::Button(name) => commands.button_ui(ui, name),
+                    Tool::Button(name, text) => commands.tool_ui(ui, name, text),
                     Tool::DropDown(title, place) => drop_down_ui(ui, title, place, commands),
                 }
             }
@@ -61,7 +61,7 @@ fn drop_down_ui(ui: &mut egui::Ui, title: &'static str, place: Place, commands: 
 /// The names of the commands that have a button.
 pub fn names() -> impl Iterator<Item = &'static str> {
     TOOLS.iter().filter_map(|tool| match tool {
-        Tool::Button(name) => Some(*name),
+        Tool::Button(name, _) => Some(*name),
         Tool::DropDown(..) => None,
     })
 }

@@ -1,8 +1,9 @@
 //! The menu *View*: the picture and the lines over it.
 
-use super::keys::key;
+use super::keys::{key, shift};
 use super::{Command, Commands, Entry, Menu, Place, all, lacks_scene, none};
 use crate::app::App;
+use crate::overlay::grid::GRID;
 use crate::overlay::wireframe::WIREFRAME;
 use crate::overlay::{OverlaySpec, switches};
 use crate::quality::{QUALITY, Quality};
@@ -12,6 +13,7 @@ use hitscope_core::kernel::{KernelInfo, TRIANGLE_KERNELS};
 
 /// The views.
 pub const VIEWS: Place = Place::submenu(Menu::View, 0, "View as");
+const VIEW_STEPS: Place = Place::new(Menu::View, 0);
 const SHADING: Place = Place::new(Menu::View, 1);
 const LINES: Place = Place::new(Menu::View, 2);
 const OVERLAYS: Place = Place::submenu(Menu::View, 2, "Overlay");
@@ -58,6 +60,26 @@ pub(super) const MAGNIFIER_ROWS: &[Command] = &[
 
 pub(super) const ROWS: &[Command] = &[
     Command {
+        name: "next-view",
+        keys: &[key(Key::V)],
+        title: "Next view",
+        tooltip: "Shows the next view of the list",
+        place: VIEW_STEPS,
+        is_on: None,
+        obstacle: none,
+        run: |app, _, _| step_view(app, 1),
+    },
+    Command {
+        name: "previous-view",
+        keys: &[shift(Key::V)],
+        title: "Previous view",
+        tooltip: "Shows the previous view of the list",
+        place: VIEW_STEPS,
+        is_on: None,
+        obstacle: none,
+        run: |app, _, _| step_view(app, -1),
+    },
+    Command {
         name: "smooth",
         keys: &[key(Key::S)],
         title: "Smooth shading",
@@ -69,7 +91,7 @@ pub(super) const ROWS: &[Command] = &[
     },
     Command {
         name: "wireframe",
-        keys: &[key(Key::W)],
+        keys: &[key(Key::W), key(Key::E)],
         title: "Wireframe",
         tooltip: "Draws the edges of faces over the picture",
         place: LINES,
@@ -86,6 +108,16 @@ pub(super) const ROWS: &[Command] = &[
         is_on: Some(|app| app.seen.settings.shows_normals()),
         obstacle: none,
         run: |app, _, _| app.seen.settings.toggle_normals(),
+    },
+    Command {
+        name: "grid",
+        keys: &[key(Key::G)],
+        title: GRID.title,
+        tooltip: GRID.about,
+        place: OVERLAYS,
+        is_on: Some(|app| app.seen.settings.overlays.is_on(&GRID)),
+        obstacle: none,
+        run: |app, _, _| app.seen.settings.overlays.toggle(&GRID),
     },
     Command {
         name: "noise",
@@ -111,6 +143,15 @@ pub(super) const ROWS: &[Command] = &[
         run: |app, _, _| app.traced.tracer.toggle_pause(),
     },
 ];
+
+/// Shows the view so many further down the list; the first one follows the last.
+fn step_view(app: &mut App, step: isize) {
+    let current = app.seen.settings.view().name;
+    let index = INTEGRATORS.iter().position(|view| view.name == current);
+    let next = index.unwrap_or(0) as isize + step;
+    let next = next.rem_euclid(INTEGRATORS.len() as isize) as usize;
+    app.seen.settings.keep_view(INTEGRATORS[next].name);
+}
 
 /// All views.
 pub(super) fn views(app: &App) -> Vec<Entry> {

@@ -24,7 +24,7 @@ impl Commands {
         let entry = self.named(name);
         match entry.is_on {
             Some(_) => self.choice_ui(ui, entry),
-            None => self.add(ui, entry, Button::new(&*entry.title)),
+            None => _ = self.add(ui, entry, Button::new(&*entry.title)),
         }
     }
 
@@ -51,9 +51,26 @@ impl Commands {
         self.add(ui, entry, Button::selectable(is_on, &*entry.title));
     }
 
-    fn add(&self, ui: &mut egui::Ui, entry: &Entry, widget: impl egui::Widget) {
+    /// Shows a button of the tool bar with a text that may be shorter than the title.
+    pub(super) fn tool_ui(&self, ui: &mut egui::Ui, name: &str, text: Option<&str>) {
+        let entry = self.named(name);
+        let text = text.unwrap_or(&entry.title);
+        let button = match entry.is_on {
+            Some(is_on) => Button::selectable(is_on, text),
+            None => Button::new(text),
+        };
+        let response = self.add(ui, entry, button);
+        response.widget_info(|| {
+            let mut info = WidgetInfo::labeled(Role::Button, entry.is_enabled(), &*entry.title);
+            info.selected = entry.is_on;
+            info
+        });
+    }
+
+    fn add(&self, ui: &mut egui::Ui, entry: &Entry, widget: impl egui::Widget) -> Response {
         let response = ui.add_enabled(entry.is_enabled(), widget);
         self.finish(&response, entry);
+        response
     }
 
     /// Shows a row of a menu: a check mark if the command is on, its title, and its keys at the right.

@@ -2,12 +2,12 @@
 
 use crate::clip_choice::{ClipChoice, ClipShape, Extent};
 use crate::command::Commands;
-use egui::{DragValue, RichText, Slider, SliderClamping};
-use glam::DVec3;
+use crate::number_field::{number_field, number_slider};
+use egui::{RichText, SliderClamping};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Shows the section, for a scene with this box around it.
+/// Shows the section, for a scene with this box around it. Numbers that give no clip leave the old ones.
 pub fn clip_ui(ui: &mut egui::Ui, clip: &mut ClipChoice, extent: &Extent, commands: &Commands) {
     ui.label(RichText::new("Clip").strong());
     ui.horizontal_wrapped(|ui| {
@@ -17,10 +17,14 @@ pub fn clip_ui(ui: &mut egui::Ui, clip: &mut ClipChoice, extent: &Extent, comman
         commands.small_button_ui(ui, "clip-at-pick");
     });
     let size = (extent.max - extent.min).max_element();
+    let before = clip.clone();
     match clip.shape {
         ClipShape::None => {}
         ClipShape::Plane => plane_ui(ui, clip, extent, size, commands),
         ClipShape::Box => box_ui(ui, clip, size, commands),
+    }
+    if clip.clip().is_err() {
+        *clip = before;
     }
 }
 
@@ -40,24 +44,27 @@ fn plane_ui(
         let label = ui.label("Offset");
         // A number that is typed in may lie outside of the scene.
         let offsets = clip.offsets(extent);
-        let slider = Slider::new(&mut clip.offset, offsets)
+        let slider = number_slider(&mut clip.offset, offsets)
             .clamping(SliderClamping::Never)
             .max_decimals(6)
             .step_by(0.0);
         ui.add(slider).labelled_by(label.id).on_hover_text(
             "Normal times position of the plane's points, in the file's coordinates",
         );
-        ui.add(DragValue::new(&mut clip.offset).speed(0.002 * size))
+        ui.add(number_field(&mut clip.offset).speed(0.002 * size))
             .accessible_name("Exact offset");
     });
     ui.horizontal(|ui| {
         ui.label("Normal");
         let mut normal = clip.normal;
         for (axis, name) in AXES.into_iter().enumerate() {
-            let number = DragValue::new(&mut normal[axis]).speed(0.01);
+            let number = number_field(&mut normal[axis])
+                .speed(0.01)
+                // The beginning of a number may be zero.
+                .update_while_editing(false);
             ui.add(number).accessible_name(format!("Normal: {name}"));
         }
-        if normal != clip.normal && normal != DVec3::ZERO {
+        if normal != clip.normal {
             clip.turn(normal, extent);
         }
     });
@@ -70,17 +77,16 @@ fn box_ui(ui: &mut egui::Ui, clip: &mut ClipChoice, size: f64, commands: &Comman
         for (title, corner) in [("From", &mut edited.min), ("To", &mut edited.max)] {
             ui.label(title);
             for (axis, name) in AXES.into_iter().enumerate() {
-                let number = DragValue::new(&mut corner[axis])
+                let number = number_field(&mut corner[axis])
                     .speed(0.002 * size)
+                    // The beginning of a number may leave nothing of the box.
+                    .update_while_editing(false)
                     .prefix(format!("{name} "));
                 ui.add(number).accessible_name(format!("{title}: {name}"));
             }
             ui.end_row();
         }
     });
-    // An edit that would leave nothing of the box is ignored.
-    if edited.min.cmplt(edited.max).all() {
-        *cell = edited;
-    }
+    *cell = edited;
     commands.small_button_ui(ui, "clip-fit");
 }

@@ -2,8 +2,9 @@
 
 use crate::colour_choice::{Background, ColourChoice};
 use crate::command::Commands;
+use crate::number_field::number_field;
 use crate::settings::Settings;
-use egui::{Color32, ComboBox, DragValue, Rect, RichText, Sense, pos2, vec2};
+use egui::{Color32, ComboBox, Rect, RichText, Sense, pos2, vec2};
 use hitscope_core::colour::{COLOUR_MAPS, ColourMap, ColourScale, ScaleError};
 use hitscope_core::integrator::{Integrator, Setting};
 use hitscope_core::tone::Display;
@@ -111,7 +112,7 @@ fn scale_ui(
         if let Some(range) = &mut choice.range {
             let speed = 0.005 * (range[1] - range[0]).abs().max(f64::MIN_POSITIVE);
             for (number, name) in range.iter_mut().zip(["First number", "Last number"]) {
-                let number = DragValue::new(number).speed(speed).max_decimals(12);
+                let number = number_field(number).speed(speed).max_decimals(12);
                 ui.add(number).accessible_name(name);
             }
         }

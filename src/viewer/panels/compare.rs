@@ -4,9 +4,10 @@ mod figures;
 
 use crate::command::{COMPARE_MODES, Commands};
 use crate::comparison::{Comparison, Figures, GAINS, MeshDistances, Mode, Rasterized, Source};
+use crate::number_field::number_slider;
 use crate::opening::Loading;
 use crate::settings::Settings;
-use egui::{ComboBox, RichText, Slider};
+use egui::{ComboBox, RichText};
 use figures::figures_ui;
 use glam::UVec2;
 use hitscope_core::group::ShapeKernels;
@@ -30,6 +31,8 @@ pub struct CompareView<'a> {
     pub sizes: Option<[UVec2; 2]>,
     /// The figures of the differences.
     pub figures: Option<&'a Figures>,
+    /// Whether the figures are those of pictures with all samples.
+    pub are_figures_final: bool,
     /// The distances between the surfaces.
     pub distances: Option<&'a Result<MeshDistances, String>>,
     /// Why the distance map isn't shown.
@@ -96,14 +99,14 @@ fn mode_ui(ui: &mut egui::Ui, comparison: &mut Comparison, view: &CompareView<'_
         Mode::Wipe => {
             ui.horizontal(|ui| {
                 let label = ui.label("Divider");
-                let slider = Slider::new(&mut comparison.divider, 0.0..=1.0).max_decimals(3);
+                let slider = number_slider(&mut comparison.divider, 0.0..=1.0).max_decimals(3);
                 ui.add(slider).labelled_by(label.id);
             });
         }
         Mode::Difference => {
             ui.horizontal(|ui| {
                 let label = ui.label("Gain");
-                let slider = Slider::new(&mut comparison.gain, GAINS)
+                let slider = number_slider(&mut comparison.gain, GAINS)
                     .logarithmic(true)
                     .max_decimals(1);
                 ui.add(slider)

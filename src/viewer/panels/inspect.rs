@@ -5,6 +5,7 @@ mod kernels;
 use super::{lines, row_ui, rows_ui, section_ui};
 use crate::command::{Commands, keys::keys_of};
 use crate::face_lookup::FaceInFile;
+use crate::number_field::number_slider;
 use crate::numbers::{number, significant};
 use egui::{CollapsingHeader, RichText};
 use hitscope_core::counts::{counted, counted_as};
@@ -212,7 +213,7 @@ fn crossings_ui(
     ui.horizontal(|ui| {
         let name = ui.label(RichText::new("Crossings").strong());
         if count > 1 {
-            let slider = egui::Slider::new(&mut selected, 0..=count - 1).show_value(false);
+            let slider = number_slider(&mut selected, 0..=count - 1).show_value(false);
             ui.add(slider).labelled_by(name.id);
             // At the slider it would cover the rows below while the user drags.
             name.on_hover_text(format!(

@@ -3,9 +3,10 @@
 use super::view::legend_ui;
 use crate::command::Commands;
 use crate::look::noise_legend;
+use crate::number_field::{number_field, number_slider};
 use crate::settings::{EnvironmentSource, Settings};
 use crate::tracer::LEAST_SAMPLES;
-use egui::{DragValue, Slider, SliderClamping};
+use egui::SliderClamping;
 use hitscope_core::brightness::EXPOSURES;
 use hitscope_core::integrator::Setting;
 use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy};
@@ -37,7 +38,7 @@ pub(super) fn light_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Co
     if needs.uses(Setting::OcclusionDistance) {
         ui.horizontal(|ui| {
             let label = ui.label("Distance");
-            let slider = Slider::new(&mut settings.ao_distance, AO_DISTANCES)
+            let slider = number_slider(&mut settings.ao_distance, AO_DISTANCES)
                 .logarithmic(true)
                 .suffix(" radii");
             let slider = ui.add(slider).labelled_by(label.id);
@@ -56,7 +57,7 @@ pub(super) fn light_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Co
         ui.horizontal(|ui| {
             ui.checkbox(&mut settings.has_depth_limit, "Depth limit")
                 .on_hover_text("The most surfaces on a path. If off, paths end at random.");
-            let limit = DragValue::new(&mut settings.depth_limit)
+            let limit = number_field(&mut settings.depth_limit)
                 .range(DEPTH_LIMITS)
                 .suffix(" surfaces");
             ui.add_enabled(settings.has_depth_limit, limit)
@@ -114,7 +115,7 @@ fn environment_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Command
     if settings.environment != EnvironmentSource::Scene {
         ui.horizontal(|ui| {
             let label = ui.label("Brightness");
-            let slider = Slider::new(&mut settings.environment_brightness, BRIGHTNESSES)
+            let slider = number_slider(&mut settings.environment_brightness, BRIGHTNESSES)
                 .logarithmic(true)
                 .smallest_positive(0.01);
             let slider = ui.add(slider).labelled_by(label.id);
@@ -124,7 +125,7 @@ fn environment_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Command
     if settings.has_map() {
         ui.horizontal(|ui| {
             let label = ui.label("Rotation");
-            let slider = Slider::new(&mut settings.environment_degrees, ROTATIONS)
+            let slider = number_slider(&mut settings.environment_degrees, ROTATIONS)
                 .suffix("°")
                 .fixed_decimals(0);
             let slider = ui.add(slider).labelled_by(label.id);
@@ -138,7 +139,7 @@ fn environment_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Command
 fn exposure_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     ui.horizontal(|ui| {
         let label = ui.label("Exposure");
-        let slider = Slider::new(&mut settings.exposure_stops, DRAGGED_EXPOSURES)
+        let slider = number_slider(&mut settings.exposure_stops, DRAGGED_EXPOSURES)
             .clamping(SliderClamping::Never)
             .suffix(" stops")
             .fixed_decimals(1);
@@ -212,7 +213,7 @@ fn noise_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Commands) {
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.has_time_limit, "Stop after")
             .on_hover_text("Ends refinement after so many seconds of tracing");
-        let secs = DragValue::new(&mut settings.time_limit_s)
+        let secs = number_field(&mut settings.time_limit_s)
             .range(TIME_LIMITS_S)
             .suffix(" s");
         ui.add_enabled(settings.has_time_limit, secs)
@@ -224,7 +225,7 @@ fn noise_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Commands) {
                 "Ends refinement when the mean standard error of the pixels is at most this, in percent of white; \
                  from {LEAST_SAMPLES} samples per pixel on"
             ));
-        let percent = DragValue::new(&mut settings.noise_limit_percent)
+        let percent = number_field(&mut settings.noise_limit_percent)
             .range(NOISE_LIMITS)
             .speed(0.05)
             .max_decimals(3)

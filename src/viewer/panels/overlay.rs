@@ -1,6 +1,7 @@
 //! The section *Overlay* of the Display tab: a row of controls per overlay that has a switch.
 
 use crate::command::Commands;
+use crate::number_field::{finite, number_field};
 use crate::overlay::spec::{OptionKind, OverlayOption};
 use crate::overlay::state::{OPACITIES, WIDTHS_PX};
 use crate::overlay::{OverlaySpec, OverlayState, Overlays, switches};
@@ -28,7 +29,7 @@ fn row_ui(ui: &mut egui::Ui, overlay: &OverlaySpec, state: &mut OverlayState, co
     } else {
         named(opacity_ui(ui, &mut state.opacity), "opacity");
     }
-    let width = DragValue::new(&mut state.width_px)
+    let width = number_field(&mut state.width_px)
         .range(WIDTHS_PX)
         .speed(0.02)
         .max_decimals(1)
@@ -103,10 +104,10 @@ fn option_ui(
 
 /// A number that is shown in percent.
 fn percent(value: &mut f32) -> DragValue<'_> {
-    DragValue::new(value)
+    number_field(value)
         .custom_formatter(|part, _| format!("{:.1} %", 100.0 * part))
         .custom_parser(|text| {
-            let percent = text.trim_end_matches(['%', ' ']).parse::<f64>().ok()?;
+            let percent = finite::<f32>(text.trim_end_matches(['%', ' ']))?;
             Some(percent / 100.0)
         })
 }

@@ -3,7 +3,8 @@
 use super::eye::eye_ui;
 use crate::command::Commands;
 use crate::parts::{Grouping, Part, PartList, Parts};
-use egui::{Align, Layout, RichText, ScrollArea, TextEdit};
+use crate::text_field::text_field;
+use egui::{Align, Layout, RichText, ScrollArea};
 use hitscope_core::counts::counted;
 
 /// Height of the lowest list in points.
@@ -27,7 +28,7 @@ pub fn parts_ui(ui: &mut egui::Ui, parts: &mut Parts, picked: Option<u32>, comma
             commands.small_button_ui(ui, name);
         }
     });
-    ui.add(TextEdit::singleline(&mut parts.filter).hint_text("Search"))
+    ui.add(text_field(&mut parts.filter).hint_text("Search"))
         .accessible_name("Search for a part");
     let Some(list) = parts.list() else {
         let text = if parts.has_failed() {

@@ -2,6 +2,7 @@
 
 use super::table::table_ui;
 use super::{row_ui, rows_ui};
+use crate::number_field::number_field;
 use crate::numbers::significant;
 use egui::RichText;
 use hitscope_lab::inspection::{PathReport, VertexReport, light_text};
@@ -24,7 +25,7 @@ pub fn path_ui(ui: &mut egui::Ui, view: &PathView<'_>) -> Option<u32> {
         .on_hover_text("The path of one sample, drawn over the picture with its rays to lights");
     ui.horizontal(|ui| {
         let name = ui.label("Sample");
-        let step = egui::DragValue::new(&mut selected).range(0..=view.last);
+        let step = number_field(&mut selected).range(0..=view.last);
         ui.add(step).labelled_by(name.id);
         let (first, last) = (view.sample == 0, view.sample == view.last);
         if ui

@@ -3,7 +3,9 @@
 use super::table::table_ui;
 use super::{row_ui, rows_ui};
 use crate::command::{Commands, SNAPPING};
-use egui::{RichText, TextEdit};
+use crate::number_field::number_slider;
+use crate::text_field::text_field;
+use egui::RichText;
 use hitscope_core::bvh::{BoxContents, OpenedBox};
 use hitscope_core::counts::counted_as;
 
@@ -144,9 +146,7 @@ fn pick_ui(ui: &mut egui::Ui, pick: &PickRow) -> Option<PicksChange> {
                 change = Some(PicksChange::Select(number));
             }
             let mut name = pick.name.clone();
-            let field = TextEdit::singleline(&mut name)
-                .hint_text("name")
-                .desired_width(90.0);
+            let field = text_field(&mut name).hint_text("name").desired_width(90.0);
             let field = ui.add(field);
             field.widget_info(|| {
                 let mut info = egui::WidgetInfo::text_edit(true, &pick.name, &name, "name");
@@ -206,7 +206,7 @@ fn walk_ui(ui: &mut egui::Ui, walk: &WalkView) -> Option<PicksChange> {
     let mut step = walk.step;
     ui.horizontal(|ui| {
         let name = ui.label("Opened box");
-        let slider = egui::Slider::new(&mut step, 0..=walk.count - 1).show_value(false);
+        let slider = number_slider(&mut step, 0..=walk.count - 1).show_value(false);
         ui.add(slider).labelled_by(name.id);
     });
     rows_ui(ui, |ui| {

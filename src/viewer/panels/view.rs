@@ -6,6 +6,7 @@ use super::light::light_ui;
 use super::overlay::overlay_ui;
 use crate::clip_choice::Extent;
 use crate::command::{Commands, THEMES, VIEWS};
+use crate::number_field::{finite, number_field, number_slider};
 use crate::settings::Settings;
 use egui::RichText;
 use hitscope_core::camera::Turntable;
@@ -93,7 +94,7 @@ fn chosen_view_ui(
                 "Smooth shading has creases where triangles meet at a larger angle. \
              If off, the file's normals and smoothing groups determine the creases.",
             );
-        let degrees = egui::DragValue::new(&mut settings.crease_degrees)
+        let degrees = number_field(&mut settings.crease_degrees)
             .range(0.0..=180.0)
             .suffix("°");
         ui.add_enabled(settings.has_crease, degrees)
@@ -102,9 +103,9 @@ fn chosen_view_ui(
     ui.horizontal(|ui| {
         let label = ui.label("Samples per pixel");
         let mut power = settings.samples.max(1).ilog2();
-        let slider = egui::Slider::new(&mut power, 0..=MAX_SAMPLES.ilog2())
+        let slider = number_slider(&mut power, 0..=MAX_SAMPLES.ilog2())
             .custom_formatter(|power, _| format!("{}", 1u32 << power as u32))
-            .custom_parser(|text| text.parse().ok().map(f64::log2));
+            .custom_parser(|text| Some(finite::<u32>(text)?.max(1.0).log2()));
         ui.add(slider).labelled_by(label.id);
         settings.samples = 1 << power;
     });
@@ -205,7 +206,7 @@ fn camera_ui(ui: &mut egui::Ui, turntable: &mut Turntable, commands: &Commands) 
         let label = ui.label("Field of view");
         let mut degrees = turntable.fov_y_radians.to_degrees();
         // Neither rounds nor clamps the angle of a file's sensor.
-        let slider = egui::Slider::new(&mut degrees, 5.0..=120.0)
+        let slider = number_slider(&mut degrees, 5.0..=120.0)
             .clamping(egui::SliderClamping::Edits)
             .suffix("°")
             .custom_formatter(|degrees, _| format!("{degrees:.0}"));

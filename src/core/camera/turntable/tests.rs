@@ -169,6 +169,7 @@ fn standard_views_look_along_the_axes_for_either_up() {
             (StandardView::Left, DVec3::NEG_X),
             (StandardView::Top, up),
             (StandardView::Bottom, -up),
+            (StandardView::Isometric, (DVec3::X + front + up).normalize()),
         ] {
             turntable.look_from(view);
             assert!(

@@ -4,6 +4,7 @@ use super::CompareArgs;
 use crate::commands::CommandError;
 use crate::json;
 use crate::picture_comparison::{PictureComparison, PicturePair};
+use crate::rounding::significant;
 use hitscope_core::picture::PictureFile;
 use hitscope_core::progress::Progress;
 use std::io::{self, Write};
@@ -42,14 +43,14 @@ fn print(found: &PictureComparison, out: &mut dyn Write) -> io::Result<()> {
         "sRGB"
     };
     writeln!(out, "{width} x {height} pixels, {encoding}")?;
-    writeln!(out, "mse            {:.6e}", found.mse)?;
-    writeln!(out, "rmse           {:.6e}", found.rmse)?;
+    writeln!(out, "mse            {}", significant(found.mse, 6))?;
+    writeln!(out, "rmse           {}", significant(found.rmse, 6))?;
     match found.psnr_db {
         Some(psnr) => writeln!(out, "psnr           {psnr:.2} dB")?,
         None => writeln!(out, "psnr           no difference")?,
     }
     if let Some(relative) = found.relative_mse {
-        writeln!(out, "relative mse   {relative:.6e}")?;
+        writeln!(out, "relative mse   {}", significant(relative, 6))?;
     }
     if let Some(worst) = &found.worst {
         let [x, y] = worst.pixel;
@@ -70,8 +71,11 @@ fn print(found: &PictureComparison, out: &mut dyn Write) -> io::Result<()> {
     for channel in &found.channels {
         writeln!(
             out,
-            "mean {}         {:.6} and {:.6}, mse {:.6e}",
-            channel.name, channel.mean_a, channel.mean_b, channel.mse
+            "mean {}         {:.6} and {:.6}, mse {}",
+            channel.name,
+            channel.mean_a,
+            channel.mean_b,
+            significant(channel.mse, 6)
         )?;
     }
     Ok(())

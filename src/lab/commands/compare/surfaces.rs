@@ -6,6 +6,7 @@ use crate::commands::picture::picture_bytes;
 use crate::commands::{CommandError, DARK_BACKGROUND};
 use crate::json;
 use crate::progress::{Meter, ProgressBar};
+use crate::rounding::significant;
 use crate::surface_comparison::{
     DistanceFigures, DistancePicture, Inventory, OneSided, OnlyIn, Surface, diagonal, only_in,
 };
@@ -17,6 +18,9 @@ use hitscope_core::srgb::from_display;
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::Path;
+
+/// Significant digits of lengths and areas.
+const DIGITS: usize = 6;
 
 /// The result. Lengths are in the units of the files.
 #[derive(Serialize)]
@@ -204,11 +208,10 @@ impl Report {
             writeln!(out, "{name:<14} {a:>16} {b:>16} {more:>+16}")?;
         }
         let more = b.area - a.area;
-        writeln!(
-            out,
-            "{:<14} {:>16.6e} {:>16.6e} {more:>+16.6e}",
-            "area", a.area, b.area
-        )?;
+        let plus = if more < 0.0 { "" } else { "+" };
+        let [area_a, area_b] = [a.area, b.area].map(|area| significant(area, DIGITS));
+        let more = format!("{plus}{}", significant(more, DIGITS));
+        writeln!(out, "{:<14} {area_a:>16} {area_b:>16} {more:>16}", "area")?;
         for (title, names) in [
             ("only in A", &self.only_in_a),
             ("only in B", &self.only_in_b),
@@ -257,11 +260,8 @@ fn print_side(title: &str, side: &OneSided, diagonal: f64, out: &mut dyn Write) 
         side.vertices, side.samples
     )?;
     print_figures(side.figures(), diagonal, out)?;
-    let OneSided { p50, p90, p99, .. } = side;
-    writeln!(
-        out,
-        "  quantiles    50 %: {p50:.6e}, 90 %: {p90:.6e}, 99 %: {p99:.6e}"
-    )?;
+    let [p50, p90, p99] = [side.p50, side.p90, side.p99].map(|p| significant(p, DIGITS));
+    writeln!(out, "  quantiles    50 %: {p50}, 90 %: {p90}, 99 %: {p99}")?;
     let worst = &side.worst;
     let line = worst
         .line
@@ -285,7 +285,8 @@ fn print_figures(figures: DistanceFigures, diagonal: f64, out: &mut dyn Write) -
         ("rms", figures.rms, relative.rms),
         ("max", figures.max, relative.max),
     ] {
-        writeln!(out, "  {name:<12} {length:.6e}, {part:.3e} of the diagonal")?;
+        let (length, part) = (significant(length, DIGITS), significant(part, 4));
+        writeln!(out, "  {name:<12} {length}, {part} of the diagonal")?;
     }
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use super::super::camera::{CameraArgs, is_fov, is_height, is_size};
 use super::super::{CommandError, file_error};
+use crate::json_error::explained;
 use glam::{DVec3, UVec2};
 use hitscope_core::names::{alternatives, nearest};
 use hitscope_core::obj::shown;
@@ -22,6 +23,10 @@ pub struct ListedCamera {
 
 /// The fields of a camera in the file; each but the name means the same as the option of its name.
 const FIELDS: [&str; 7] = ["name", "eye", "target", "up", "fov", "ortho", "size"];
+
+/// The message about a file without a list.
+const EMPTY: &str =
+    "the file is empty; it should have a list of cameras, as in [{\"eye\": [0, 0, 5]}]";
 
 /// What is wrong with a part of the file.
 struct Fault {
@@ -152,11 +157,12 @@ fn size(text: &str, raw: &str) -> Result<UVec2, Fault> {
 /// Parses a part of a text.
 fn value<'t, T: Deserialize<'t>>(text: &str, part: &'t str) -> Result<T, Fault> {
     serde_json::from_str(part).map_err(|error| {
-        let message = error.to_string();
-        // The position in the part says nothing about the file.
-        let position = format!(" at line {} column {}", error.line(), error.column());
-        let message = message.strip_suffix(&position).unwrap_or(&message);
-        let mut fault = fault(text, part, message.to_owned());
+        let message = match part.trim() {
+            "" => EMPTY.to_owned(),
+            // The position in the part says nothing about the file.
+            _ => explained(&error),
+        };
+        let mut fault = fault(text, part, message);
         fault.lines_before += error.line().saturating_sub(1);
         fault
     })
@@ -201,26 +207,27 @@ mod tests {
     #[test]
     fn a_broken_file_is_refused_with_its_line_and_field() {
         for (text, reason) in [
-            ("", "1: EOF while parsing a value"),
+            ("", "1: the file is empty; it should have a list of cameras"),
+            ("[{\"eye\"", "1: the text ends too early"),
             ("[]", "1: the list has no cameras"),
+            ("{\"eye\": [1,2,3]}", "1: expected a list, found an object"),
+            ("[{}\n{}]", "2: expected “,” or “]”"),
             (
-                "{\"eye\": [1,2,3]}",
-                "1: invalid type: map, expected a sequence",
+                "[{}]\n x",
+                "2: there is a value too many, or text after the end",
             ),
-            ("[{}\n{}]", "2: expected `,` or `]`"),
-            ("[{}]\n x", "2: trailing characters"),
-            ("[{},\n5]", "2: camera 1: invalid type: integer `5`"),
+            ("[{},\n5]", "2: camera 1: expected an object, found 5"),
             (
                 "[{},\n{\"eye\": [1,\n2]}]",
-                "3: camera 1: eye: invalid length 2",
+                "3: camera 1: eye: expected a list of 3 values, found 2 values",
             ),
             (
                 "[{\"eye\": \"1,2,3\"}]",
-                "1: camera 0: eye: invalid type: string",
+                "1: camera 0: eye: expected a list of 3 values, found the text “1,2,3”",
             ),
             (
                 "[{\n\"eye\":\n[1, 2, 1e999]}]",
-                "3: camera 0: eye: number out of range",
+                "3: camera 0: eye: a number is too large",
             ),
             (
                 "[{\n\"fov\": 180\n}]",
@@ -234,7 +241,10 @@ mod tests {
                 "[{\"size\": [0, 5]}]",
                 "1: camera 0: size: width and height",
             ),
-            ("[{\"size\": [5, -5]}]", "1: camera 0: size: invalid value"),
+            (
+                "[{\"size\": [5, -5]}]",
+                "1: camera 0: size: expected a whole number that isn't too large, found -5",
+            ),
             (
                 "[{\"name\": \"a/b\"}]",
                 "1: camera 0: name: expected a name",

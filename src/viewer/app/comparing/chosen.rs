@@ -117,6 +117,23 @@ impl App {
         }
     }
 
+    /// Why there is no side B; `None` if there is one, or will be once it is loaded.
+    pub(super) fn lacks_b(&self) -> Option<&'static str> {
+        let comparison = &self.seen.comparison;
+        match comparison.source {
+            Source::Mesh if comparison.mesh_file.is_none() => {
+                Some("No file: choose one in the tab Compare")
+            }
+            Source::Picture if comparison.picture_file.is_none() => {
+                Some("No picture: choose one in the tab Compare")
+            }
+            Source::Earlier if self.compared.earlier.is_none() => {
+                Some("No earlier version: the file hasn't been reloaded")
+            }
+            _ => None,
+        }
+    }
+
     /// Shows the tab.
     pub(in crate::app) fn compare_tab_ui(&mut self, ui: &mut egui::Ui, commands: &Commands) {
         let scene = &self.open.document.loaded.scene;
@@ -132,6 +149,7 @@ impl App {
             lacks_earlier: self.compared.earlier.is_none(),
             sizes: self.sizes(),
             figures: self.figures(),
+            are_figures_final: self.are_figures_final(),
             distances: self.mesh_distances(),
             map_status: self.map_status().filter(|_| self.shows(Mode::Distance)),
         };

@@ -114,6 +114,11 @@ impl App {
         known.is_some_and(|(changes, _)| *changes == self.compared.screen.changes)
     }
 
+    /// Whether the figures belong to the pictures on the screen, which have all their samples.
+    pub fn are_figures_final(&self) -> bool {
+        self.traced.tracer.is_finished() && self.are_sides_settled() && self.has_figures()
+    }
+
     /// Both pictures, if they have the same size.
     fn compared_pictures(&self) -> Option<ComparedPictures> {
         let film = self.traced.tracer.film();

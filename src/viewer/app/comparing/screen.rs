@@ -274,7 +274,12 @@ impl App {
         if self.shows(Mode::Wipe) {
             rect.min.x = self.divider_x(canvas);
         }
-        ui.painter_at(rect).extend(shape);
+        let painter = ui.painter_at(rect);
+        painter.extend(shape);
+        let shows_a = self.shows(Mode::A) || self.shows(Mode::Distance);
+        if let Some(reason) = self.lacks_b().filter(|_| !shows_a) {
+            empty_ui(ui, &painter, rect, reason);
+        }
         self.names_ui(ui, canvas);
     }
 
@@ -373,4 +378,17 @@ impl App {
             painter.vline(self.divider_x(canvas), canvas.rect.y_range(), stroke);
         }
     }
+}
+
+/// Covers a part of the picture and says why there is nothing in it.
+fn empty_ui(ui: &egui::Ui, painter: &egui::Painter, rect: Rect, reason: &'static str) {
+    painter.rect_filled(rect, 0.0, ui.visuals().panel_fill);
+    let (font, colour) = (FontId::proportional(14.0), ui.visuals().text_color());
+    let room = (rect.width() - 2.0 * MARGIN).max(1.0);
+    let galley = painter.layout(reason.to_owned(), font, colour, room);
+    let place = Rect::from_center_size(rect.center(), galley.size());
+    painter.galley(place.min, galley, colour);
+    let id = ui.scope_id().with("empty side");
+    let response = ui.interact(place, id, Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, reason));
 }

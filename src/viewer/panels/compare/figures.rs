@@ -4,6 +4,7 @@ use super::CompareView;
 use crate::comparison::{Comparison, MeshDistances, VisibilityDifference};
 use crate::numbers::significant;
 use crate::panels::{row_ui, section_ui};
+use egui::RichText;
 use hitscope_lab::picture_comparison::PictureComparison;
 use hitscope_lab::surface_comparison::{DistanceFigures, OneSided};
 
@@ -16,6 +17,12 @@ pub(super) fn figures_ui(ui: &mut egui::Ui, comparison: &Comparison, view: &Comp
         ));
     }
     if let Some(figures) = view.figures {
+        let status = if view.are_figures_final {
+            "Figures of both pictures with all their samples"
+        } else {
+            "So far: the pictures are still being refined"
+        };
+        ui.label(RichText::new(status).weak());
         picture_ui(ui, &figures.picture);
         if let Some(visibility) = figures.visibility {
             visibility_ui(ui, visibility);
