@@ -84,6 +84,21 @@ fn a_minimised_window_keeps_running_and_shows_its_picture_afterwards() {
 }
 
 #[test]
+fn the_side_panel_has_its_width_again_after_narrow_windows() {
+    let Some(mut window) = app(None) else { return };
+    window.run_steps(20);
+    let width = |window: &Window| window.get_by_label("Rendered picture").rect().width();
+    let before = width(&window);
+    for narrow in [500.0, 300.0, 100.0, 20.0, 450.0, 600.0] {
+        window.set_size(vec2(narrow, 600.0));
+        window.run_steps(3);
+    }
+    window.set_size(vec2(800.0, 600.0));
+    window.run_steps(3);
+    assert_eq!(width(&window), before);
+}
+
+#[test]
 fn the_picture_has_a_ray_per_physical_pixel_at_each_scale() {
     let Some(mut window) = app(None) else { return };
     for scale in SCALES.into_iter().chain(SCALES) {

@@ -186,6 +186,8 @@ pub(crate) struct Shown {
     pub magnifier: Magnifier,
     /// The side panel's width in the last frame.
     pub panel_width: f32,
+    /// The side panel's greatest width in the last frame, which depends on the window's width.
+    pub panel_limit: f32,
     /// UI thread times per frame.
     pub ui_times: Times,
 }
@@ -202,6 +204,7 @@ impl Shown {
             fit_to_screen: FitToScreen::default(),
             magnifier: Magnifier::default(),
             panel_width: 0.0,
+            panel_limit: 0.0,
             ui_times: Times::default(),
         }
     }

@@ -6,8 +6,11 @@ use crate::panels;
 use crate::preferences::PANEL_WIDTHS;
 use crate::tab::Tab;
 use crate::trade::Trade;
+use egui::PanelState;
 use glam::UVec2;
 
+/// The panel's name in egui's memory.
+const PANEL: &str = "panel";
 /// Width in points that the panel leaves for the picture in a narrow window.
 const NARROWEST_PICTURE: f32 = 120.0;
 /// Width in points of the panel in the narrowest window.
@@ -19,7 +22,13 @@ impl App {
         let (narrowest, widest) = (*PANEL_WIDTHS.start(), *PANEL_WIDTHS.end());
         // In a narrow window, the panel leaves some room for the picture.
         let limit = (ui.available_width() - NARROWEST_PICTURE).clamp(MIN_PANEL_WIDTH, widest);
-        let shown = egui::Panel::right("panel")
+        if self.shown.panel_limit != limit {
+            // egui would keep the width of the narrowest window.
+            self.shown.panel_limit = limit;
+            let id = ui.scope_id().with(PANEL);
+            ui.data_mut(|data| data.remove::<PanelState>(id));
+        }
+        let shown = egui::Panel::right(PANEL)
             .default_size(self.preferences.panel_width)
             .size_range(narrowest.min(limit)..=limit)
             .show_collapsible(ui, &mut is_expanded, |ui| {

@@ -1,6 +1,7 @@
 //! Random actions cause no panic and no error of the graphics device, and closing the window frees the memory.
 //!
-//! `HITSCOPE_MONKEY=10000` sets the number of actions, `HITSCOPE_MONKEY_SEED=7` the seed of the first window.
+//! `HITSCOPE_MONKEY=10000` sets the number of actions, `HITSCOPE_MONKEY_SEED=7` the seed of the first window. Each window
+//! gets at most [`PER_WINDOW`] of them, and the next seed.
 
 mod actions;
 mod files;
@@ -14,9 +15,12 @@ use actions::Monkey;
 use egui::Key;
 use hitscope::app::{App, StartOptions};
 use std::path::Path;
+use std::time::Instant;
 
 /// Actions of an ordinary run; a few seconds.
 const FEW: usize = 120;
+/// The most actions in one window.
+const PER_WINDOW: usize = 2500;
 /// Memory may grow by this factor. The process has some 200 MB before the first action.
 const GROWTH: f64 = 1.05;
 
@@ -49,11 +53,9 @@ fn play(seed: u64, count: usize, folder: &Path) -> Option<()> {
     Some(())
 }
 
-/// Requires in a measurement, which `HITSCOPE_MONKEY` asks for, that memory is back. It isn't yet: a fifth more stays, of
-/// which the cause isn't known.
 fn require_memory_back(before: f64, after: f64) {
     assert!(
-        number("HITSCOPE_MONKEY").is_none() || after <= GROWTH * before,
+        after <= GROWTH * before,
         "{before:.1} MB before, {after:.1} MB after"
     );
 }
@@ -69,12 +71,22 @@ fn random_actions_cause_no_panic_or_gpu_error() {
             return;
         }
         let before = memory_below(0.0);
-        play(seed + 1, count, folder);
-        let after = memory_below(GROWTH * before);
-        say(&format!(
-            "memory before {before:.1} MB, after {count} actions {after:.1} MB"
-        ));
-        require_memory_back(before, after);
+        let (mut window_seed, mut done, mut after) = (seed, 0, before);
+        while done < count {
+            let start = Instant::now();
+            let actions = PER_WINDOW.min(count - done);
+            (window_seed, done) = (window_seed + 1, done + actions);
+            play(window_seed, actions, folder);
+            let secs = start.elapsed().as_secs();
+            after = memory_below(GROWTH * before);
+            say(&format!(
+                "seed {window_seed}: {actions} actions in {secs} s; memory before {before:.1} MB, after {after:.1} MB"
+            ));
+        }
+        // Only in a measurement, which `HITSCOPE_MONKEY` asks for: it fails, for a reason that isn't known.
+        if number("HITSCOPE_MONKEY").is_some() {
+            require_memory_back(before, after);
+        }
     });
 }
 
@@ -108,21 +120,12 @@ fn opening_and_closing_a_hundred_files_keeps_none_of_them() {
             let before = memory_mb().unwrap_or(0.0);
             for k in 0..100 {
                 open(&mut window, k);
-                if k % 25 == 24 {
-                    let now = memory_below(0.0);
-                    say(&format!("after {} files {now:.1} MB", k + 1));
-                }
             }
             settle(&mut window, "grid-3.obj");
             let after = memory_below(GROWTH * before);
             say(&format!(
                 "memory before {before:.1} MB, after 100 files {after:.1} MB"
             ));
-            // A document of one of these files takes more.
-            assert!(
-                after - before < 50.0,
-                "{before:.1} MB before, {after:.1} MB after"
-            );
             require_memory_back(before, after);
             assert_eq!((panics(), window.state().graphics_errors()), (0, 0));
         },
