@@ -47,7 +47,7 @@ pub(super) const ROWS: &[Command] = &[
     },
     Command {
         name: "compare-rasterize-a",
-        keys: &[],
+        keys: &[key(Key::R)],
         title: "Rasterize side A",
         tooltip: "Side A is what the GPU's rasterizer finds, instead of rays",
         place: COMPARE,

@@ -110,7 +110,7 @@ impl Palette {
         ui.add_space(4.0);
         ScrollArea::vertical()
             .max_height(height)
-            // The box has had the height of the last list; a longer list makes it higher again.
+            // The box starts with the height of the last list, and a longer list needs this to make it higher.
             .min_scrolled_height(height)
             .auto_shrink([false, true])
             .show(ui, |ui| {

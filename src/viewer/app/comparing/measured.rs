@@ -92,9 +92,7 @@ impl App {
         let left = since.map_or(Duration::ZERO, |since| {
             INTERVAL.saturating_sub(since.elapsed())
         });
-        let is_a_final = self.rasterizes_a() || self.traced.tracer.is_finished();
-        let is_final = is_a_final && self.are_sides_settled();
-        if !is_final && left > Duration::ZERO {
+        if !self.are_sides_final() && left > Duration::ZERO {
             ctx.request_repaint_after(left);
             return;
         }
@@ -116,7 +114,13 @@ impl App {
 
     /// Whether the figures belong to the pictures on the screen, which have all their samples.
     pub fn are_figures_final(&self) -> bool {
-        self.traced.tracer.is_finished() && self.are_sides_settled() && self.has_figures()
+        self.are_sides_final() && self.has_figures()
+    }
+
+    /// Whether both pictures have all their samples.
+    fn are_sides_final(&self) -> bool {
+        let is_a_final = self.rasterizes_a() || self.traced.tracer.is_finished();
+        is_a_final && self.are_sides_settled()
     }
 
     /// Both pictures, if they have the same size.
