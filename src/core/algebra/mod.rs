@@ -12,6 +12,7 @@
 //! | `interval_roots` | roots of a polynomial with interval coefficients |
 //! | `remainders` | integer polynomials and their signed remainder sequences |
 //! | `quick_line` | roots in plain f64 with a bound of their error |
+//! | `quick_span` | the crossing with a plane of two half axes in plain f64 with a bound of its error |
 //! | `isolation` | intervals that contain one root of an integer polynomial each |
 //! | `algebraic` | exact roots: comparison, signs of polynomials, rounding |
 //! | `pieces` | shapes as polynomials along a ray |
@@ -30,6 +31,7 @@ mod isolation;
 mod pieces;
 mod polynomial;
 mod quick_line;
+mod quick_span;
 mod remainders;
 mod ring;
 
@@ -41,6 +43,7 @@ pub use interval_roots::RootIntervals;
 pub use pieces::{Piece, Pieces, RayIn};
 pub use polynomial::Polynomial;
 pub use quick_line::QuickLine;
+pub use quick_span::QuickSpan;
 pub use ring::{Ring, cross, difference, dot, squared_length, vector};
 
 #[cfg(test)]

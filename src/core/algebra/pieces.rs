@@ -39,8 +39,8 @@ pub trait Pieces {
     /// A point near the shape. It affects the speed, but no answer.
     fn centre(&self) -> Vec3;
 
-    /// Bounds of all roots of the shape's polynomial, if plain f64 separates them. `None` if it doesn't, or if the
-    /// shape isn't a single piece of part 0 without conditions.
+    /// Bounds of the line's crossings with a shape that is a single piece of part 0: of all roots of its polynomial if it
+    /// has no conditions, else of the only root or of none. `None` if plain f64 doesn't decide, and for other shapes.
     #[inline(always)]
     fn quick_roots(&self, _line: &QuickLine) -> Option<RootIntervals> {
         None

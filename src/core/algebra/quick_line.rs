@@ -38,14 +38,14 @@ use glam::{DVec3, Vec3};
 /// A ray's line, prepared for many shapes.
 #[derive(Clone, Copy, Debug)]
 pub struct QuickLine {
-    origin: DVec3,
-    dir: DVec3,
+    pub(super) origin: DVec3,
+    pub(super) dir: DVec3,
     per_length_squared: f64,
     per_length: f64,
 }
 
 /// The largest relative error of an operation.
-const U: f64 = f64::EPSILON / 2.0;
+pub(super) const U: f64 = f64::EPSILON / 2.0;
 
 impl QuickLine {
     #[inline(always)]

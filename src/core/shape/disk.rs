@@ -10,7 +10,7 @@ use super::{
     in_disk, numbers_of,
 };
 use crate::aabb::{Aabb, Planes};
-use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
+use crate::algebra::{Piece, Pieces, Polynomial, QuickLine, RayIn, Ring, RootIntervals};
 use crate::lane::{Lane, Values, minus, plus};
 use crate::ray::{Hit, Ray};
 use glam::{DVec2, Vec3};
@@ -93,6 +93,11 @@ impl Shape for Disk {
 impl Pieces for Disk {
     fn centre(&self) -> Vec3 {
         self.0.centre
+    }
+
+    #[inline(always)]
+    fn quick_roots(&self, line: &QuickLine) -> Option<RootIntervals> {
+        self.0.crossed_by(line)?.in_ellipse()
     }
 
     /// The plane, and 1 − a² − b².

@@ -2,7 +2,9 @@
 
 use super::flat_patch::Outline;
 use super::{FlatPatch, Parameter, SampledPoint, SurfacePoint};
-use crate::algebra::{Polynomial, RayIn, Ring, cross, difference, dot, vector};
+use crate::algebra::{
+    Polynomial, QuickLine, QuickSpan, RayIn, Ring, cross, difference, dot, vector,
+};
 use crate::lane::Values;
 use crate::ray::{Hit, Ray};
 use glam::{DVec2, Vec3};
@@ -68,6 +70,12 @@ impl Span {
             u: at.x as f32,
             v: at.y as f32,
         }
+    }
+
+    /// The crossing of a line with the plane; `None` if it isn't certain that there is one.
+    #[inline(always)]
+    pub(super) fn crossed_by(&self, line: &QuickLine) -> Option<QuickSpan> {
+        line.in_plane(self.centre, [self.u, self.v])
     }
 
     /// The point of a hit, with a and b as its surface coordinates.

@@ -6,6 +6,8 @@ mod crossings;
 mod numbers;
 /// Roots in plain f64 against exact numbers.
 mod quick_line;
+/// Crossings with rectangles and disks in plain f64 against exact numbers.
+mod quick_span;
 /// Roots of polynomials, exact and in intervals.
 mod roots;
 /// A sphere, a cylinder and a torus as pieces.
