@@ -48,6 +48,8 @@ mod light;
 mod packaging;
 // The path of a picked pixel's sample.
 mod paths;
+// The list of picks in undo and in sessions.
+mod pick_list;
 // Flaws, reloading and creases of the open mesh.
 mod mesh;
 // The window before, during and after opening a file.

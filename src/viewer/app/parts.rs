@@ -159,9 +159,10 @@ pub(crate) struct Picked {
 }
 
 impl Picked {
-    /// Clears the pick, and a click that may become one.
+    /// Inspects no pick, and forgets a click that may become one.
     pub fn clear_pick(&mut self) {
         (self.pick, self.picking, self.face_lookup) = (None, None, None);
+        self.inspecting.picks.selected = None;
         self.clicks.pending = None;
     }
 
