@@ -202,6 +202,7 @@ fn open_window(cli: &Cli) -> Result<(), CommandError> {
             after: cli.after,
             outcome: Arc::clone(&outcome),
         }),
+        ..StartOptions::default()
     };
     let ran = run_window(&start);
     match (ran, &cli.screenshot) {

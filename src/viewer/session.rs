@@ -264,7 +264,7 @@ mod tests {
         let text = session.text_at(Path::new("x")).expect("UTF-8");
         assert!(text.contains("\"pixel\": [3, 4]"), "{text}");
         assert!(text.contains("\"width_px\": 2.3"), "{text}");
-        for default in ["ao_distance", "gain", "normals", "name", "is_pinned"] {
+        for default in ["ao_distance", "gain", "normals", "\"name\"", "is_pinned"] {
             assert!(!text.contains(default), "{default}: {text}");
         }
         assert!(text.len() < 2500, "{text}");
