@@ -179,6 +179,13 @@ const BUILT_IN_VIEW: &str = "path";
 fn open_window(cli: &Cli) -> Result<(), CommandError> {
     // Open the output before the window, so that an unwritable path fails at once.
     let output = cli.screenshot.as_deref().map(Output::create).transpose()?;
+    if let (Some(_), Some(file)) = (&cli.screenshot, &cli.file) {
+        // So does a missing file, which the window would show.
+        std::fs::metadata(file).map_err(|source| CommandError::File {
+            path: file.clone(),
+            source,
+        })?;
+    }
     let outcome = Outcome::default();
     let load_options = LoadOptions {
         max_memory: cli.memory.bytes(),

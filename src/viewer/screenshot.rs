@@ -2,7 +2,7 @@
 
 use glam::UVec2;
 use hitscope_lab::commands::Output;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Time and destination of a screenshot.
@@ -14,6 +14,21 @@ pub struct ScreenshotOptions {
     pub after: Option<Duration>,
     /// The result, which the caller reads after the window has closed.
     pub outcome: Outcome,
+}
+
+impl ScreenshotOptions {
+    fn outcome(&self) -> MutexGuard<'_, Option<Result<(), String>>> {
+        self.outcome.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Writes the pixels and sets the outcome, unless it is an error already.
+    fn finish(&self, size: UVec2, pixels: &[[u8; 4]]) {
+        let mut outcome = self.outcome();
+        if outcome.is_none() {
+            let written = self.output.write_png(size, pixels);
+            *outcome = Some(written.map_err(|error| error.to_string()));
+        }
+    }
 }
 
 /// The result of a screenshot; `None` until it is taken.
@@ -36,22 +51,17 @@ impl Screenshot {
         }
     }
 
-    /// Sets the outcome to an error and closes the window.
-    pub fn fail(&self, ctx: &egui::Context, message: String) {
-        let mut outcome = self
-            .options
-            .outcome
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        *outcome = Some(Err(message));
+    /// Sets the outcome to an error, whatever it was, and closes the window. No screenshot follows.
+    pub fn fail(&mut self, ctx: &egui::Context, message: String) {
+        self.is_requested = true;
+        *self.options.outcome() = Some(Err(message));
         ctx.send_viewport_cmd(egui::ViewportCommand::Close);
     }
 
     /// Requests the screenshot when it is due, and closes the window once the file is written.
     pub fn step(&mut self, ctx: &egui::Context, is_settled: bool) {
         if self.is_requested {
-            let outcome = self.options.outcome.lock();
-            if outcome.unwrap_or_else(PoisonError::into_inner).is_some() {
+            if self.options.outcome().is_some() {
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
             return;
@@ -69,17 +79,40 @@ impl Screenshot {
         ctx.request_screenshot(move |image| {
             let size = UVec2::new(image.width() as u32, image.height() as u32);
             let pixels: Vec<[u8; 4]> = image.pixels.iter().map(egui::Color32::to_array).collect();
-            let result = options
-                .output
-                .write_png(size, &pixels)
-                .map_err(|e| e.to_string());
-            let mut outcome = options
-                .outcome
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner);
-            *outcome = Some(result);
+            options.finish(size, &pixels);
             ctx_then.request_repaint();
         });
         ctx.request_repaint();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_is_the_outcome_although_the_screenshot_is_due() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("window.png");
+        let options = ScreenshotOptions {
+            output: Output::create(&path).expect("writable"),
+            after: Some(Duration::ZERO),
+            outcome: Outcome::default(),
+        };
+        let ctx = egui::Context::default();
+        let mut screenshot = Screenshot::new(options.clone());
+        screenshot.fail(&ctx, "no such file".to_owned());
+        let mut asks_for_picture = false;
+        for _ in 0..3 {
+            let output = ctx.run_pass(egui::RawInput::default(), |ctx| screenshot.step(ctx, true));
+            let mut commands = output.viewport_output.values().flat_map(|of| &of.commands);
+            asks_for_picture |=
+                commands.any(|command| matches!(command, egui::ViewportCommand::Screenshot(_)));
+        }
+        assert!(!asks_for_picture);
+        // A picture that was asked for before the error.
+        options.finish(UVec2::ONE, &[[0; 4]]);
+        assert_eq!(*options.outcome(), Some(Err("no such file".to_owned())));
+        assert!(!path.exists());
     }
 }

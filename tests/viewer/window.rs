@@ -106,9 +106,24 @@ fn a_screenshot_of_an_unreadable_file_fails_with_a_reason() {
     }
     let Some(xvfb) = Xvfb::start() else { return };
     let folder = tempfile::tempdir().expect("a folder");
-    let ran = xvfb.hitscope(&folder, &["none.obj", "--screenshot", "window.png"]);
-    assert_eq!(ran.status.code(), Some(1));
-    let said = String::from_utf8_lossy(&ran.stderr);
-    assert!(said.contains("hitscope: none.obj: "), "{said}");
-    assert!(!folder.path().join("window.png").exists());
+    let bad = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n";
+    std::fs::write(folder.path().join("bad.obj"), bad).expect("written");
+    for (line, reason) in [
+        ("none.obj --screenshot window.png", "hitscope: none.obj: "),
+        (
+            "none.obj --screenshot window.png --after 1",
+            "hitscope: none.obj: ",
+        ),
+        (
+            "bad.obj --screenshot window.png --after 3",
+            "bad.obj:4: no faces left",
+        ),
+    ] {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        let ran = xvfb.hitscope(&folder, &arguments);
+        let said = String::from_utf8_lossy(&ran.stderr);
+        assert_eq!(ran.status.code(), Some(1), "{line}: {said}");
+        assert!(said.contains(reason), "{line}: {said}");
+        assert!(!folder.path().join("window.png").exists());
+    }
 }

@@ -195,7 +195,7 @@ impl App {
         let session = match session {
             Ok(session) => session,
             Err(message) => {
-                if let Some(screenshot) = &self.screenshot {
+                if let Some(screenshot) = &mut self.screenshot {
                     screenshot.fail(ctx, message.clone());
                 }
                 self.error(message);
