@@ -137,8 +137,8 @@ fn a_session_holds_all_picks_and_traces_them_again() {
     let text = session.text_at(&path).expect("UTF-8");
     std::fs::write(&path, text).expect("written");
 
-    press(&mut window, Key::Delete);
     click(&mut window, "Edge");
+    press(&mut window, Key::Delete);
     assert!(window.state().inspection().is_none());
     drop_file(&mut window, path);
     wait_for_pick(&mut window, pixel);
