@@ -81,19 +81,19 @@ impl Strip {
             integrator,
             plan: plan.of_rows(rows.clone()),
         };
+        let (before, own) = (f64::from(rows.start), f64::from(rows.end - rows.start));
+        let film = render_while(of_rows, threads, |part| {
+            goes_on((before + part * own) / height)
+        })?;
         let trace = || {
             let (camera, intersector) = (&context.camera, &*context.intersector);
-            Alpha::trace(camera, intersector, &of_rows.plan, threads, progress)
+            Alpha::trace(camera, intersector, film.plan(), threads, progress)
         };
         let is_transparent = context.options.has_transparent_background;
         let alpha = is_transparent.then(trace).transpose();
         let alpha = alpha.map_err(|error| match error {
             TraceError::Cancelled => RenderError::Cancelled,
             error => RenderError::Alpha(error),
-        })?;
-        let (before, own) = (f64::from(rows.start), f64::from(rows.end - rows.start));
-        let film = render_while(of_rows, threads, |part| {
-            goes_on((before + part * own) / height)
         })?;
         Ok(Self { rows, film, alpha })
     }

@@ -201,8 +201,6 @@ impl PreparedView<'_> {
     pub fn trace(&self, rows: Range<u32>, meter: &Meter) -> Result<Rendered, CommandError> {
         let (picture, job) = (self.picture, &self.job);
         let (scene, args) = (picture.scene, picture.scene.args);
-        let guides = scene.has_guides.then(|| picture.guides(job));
-        let guides = guides.transpose()?;
         let advanced = |part| {
             meter.set(part);
             true
@@ -215,6 +213,8 @@ impl PreparedView<'_> {
             alpha,
         } = strip;
         film.set_display(args.display.display());
+        let guides = scene.has_guides.then(|| picture.guides(job));
+        let guides = guides.transpose()?;
         Ok(Rendered {
             view: job.integrator,
             rows,

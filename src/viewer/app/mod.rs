@@ -93,7 +93,7 @@ use navigation::Navigation;
 use parts::{Open, Picked, Seen, Shown, Traced};
 use pictures::Pictures;
 use std::path::PathBuf;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Options for starting the window.
 #[derive(Clone, Debug)]
@@ -108,6 +108,8 @@ pub struct StartOptions {
     pub load_options: LoadOptions,
     /// If set, saves a screenshot and closes the window.
     pub screenshot: Option<crate::screenshot::ScreenshotOptions>,
+    /// When the program began.
+    pub began: Instant,
     /// Memory of the strips in which pictures of any size are rendered, in bytes. Pictures don't depend on it.
     pub strip_bytes: u64,
 }
@@ -124,6 +126,7 @@ impl Default for StartOptions {
                 ..LoadOptions::default()
             },
             screenshot: None,
+            began: Instant::now(),
             strip_bytes: STRIP_BYTES,
         }
     }
@@ -176,7 +179,7 @@ impl App {
             open: Open::new(document, start.load_options),
             seen,
             picked: Picked::default(),
-            shown: Shown::new(&render_state),
+            shown: Shown::new(&render_state, start.began),
             traced: Traced::new(tracer, &render_state),
             compared: Compared::new(&render_state),
             preferences: start.preferences,
@@ -224,6 +227,7 @@ impl eframe::App for App {
         if self.leaves_window(ctx) {
             return;
         }
+        self.shown.first_picture.begin_frame();
         if ctx.input(|input| input.viewport().close_requested()) {
             self.stop_work();
         }
@@ -259,7 +263,7 @@ impl eframe::App for App {
             self.shown.fit_to_screen.step(ctx);
         }
         if let Some(screenshot) = &mut self.screenshot {
-            screenshot.step(ctx, is_settled);
+            screenshot.step(ctx, is_settled, self.shown.first_picture.after());
         }
     }
 
