@@ -11,9 +11,9 @@
 //! · · · ·         · x · x         x · x ·
 //! ```
 
-use glam::{UVec2, Vec2};
-
 use crate::sampler::sample_position;
+use glam::{UVec2, Vec2};
+use std::ops::Range;
 
 /// Width and height of a tile in pixels; a multiple of every block size.
 pub const TILE_PX: u32 = 48;
@@ -76,7 +76,7 @@ impl Pass {
     }
 
     /// Indices of the samples that the pass adds to each of its pixels.
-    pub fn samples(self) -> std::ops::Range<u32> {
+    pub fn samples(self) -> Range<u32> {
         match self {
             Self::Lattice { .. } => 0..1,
             Self::Samples { first, count } => first..first + count,
@@ -93,10 +93,12 @@ pub struct WorkUnit {
     pub tile: usize,
 }
 
-/// All passes over a picture.
+/// All passes over a picture, or over some of its rows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Plan {
     size: UVec2,
+    /// The row of the whole picture at which the plan begins.
+    first_row: u32,
     passes: Vec<Pass>,
 }
 
@@ -119,7 +121,26 @@ impl Plan {
             passes.push(Pass::Samples { first, count });
             first += count;
         }
-        Self { size, passes }
+        Self {
+            size,
+            first_row: 0,
+            passes,
+        }
+    }
+
+    /// The passes over some rows of the picture, as a picture of their own. Its samples are those of the whole picture.
+    #[must_use]
+    pub fn of_rows(&self, rows: Range<u32>) -> Self {
+        Self {
+            size: UVec2::new(self.size.x, rows.end - rows.start),
+            first_row: self.first_row + rows.start,
+            passes: self.passes.clone(),
+        }
+    }
+
+    /// The place of a pixel in the whole picture, which its samples depend on.
+    pub(crate) fn in_whole(&self, pixel: UVec2) -> UVec2 {
+        UVec2::new(pixel.x, pixel.y + self.first_row)
     }
 
     /// Width and height in pixels.

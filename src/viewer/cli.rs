@@ -4,9 +4,10 @@ use crate::about::version_and_target;
 use crate::app::StartOptions;
 use crate::display;
 use crate::document::embedded_scene;
+use crate::first_picture::shown_time;
 use crate::launch::run_window;
 use crate::offscreen;
-use crate::screenshot::{Outcome, ScreenshotOptions};
+use crate::screenshot::{Due, Outcome, ScreenshotOptions};
 use crate::session::is_session;
 use crate::storage::{Kept, stored};
 use crate::subcommand::Command;
@@ -24,7 +25,7 @@ use std::io::{self, Write, stdout};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::{Arc, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// The width of the help in characters: that of a small terminal, so that no line is broken twice.
 const HELP_WIDTH: usize = 80;
@@ -66,9 +67,10 @@ struct Cli {
     /// Save a screenshot of the window when rendering has converged, and quit
     #[arg(long, value_name = "OUT.png", value_parser = parse_png)]
     screenshot: Option<PathBuf>,
-    /// Take the screenshot after this time instead
-    #[arg(long, value_name = "SECONDS", requires = "screenshot", allow_negative_numbers = true, value_parser = parse_seconds)]
-    after: Option<Duration>,
+    /// Take the screenshot after this time instead; “first”: as soon as the first traced picture is shown, and print the
+    /// time to it from the start of the program
+    #[arg(long, value_name = "SECONDS|first", requires = "screenshot", allow_negative_numbers = true, value_parser = parse_due)]
+    after: Option<Due>,
     #[command(flatten)]
     memory: MemoryArg,
     #[command(subcommand)]
@@ -78,6 +80,7 @@ struct Cli {
 /// Runs the command line. The exit status is 0 on success, 1 for bad input or a system error, with one line on
 /// stderr, and 2 if the command line is wrong.
 pub fn run() -> ExitCode {
+    let began = Instant::now();
     let arguments: Vec<OsString> = std::env::args_os().collect();
     if let Some(message) = misspelt_command(&arguments) {
         return refuse(Cli::command(), message);
@@ -98,7 +101,7 @@ pub fn run() -> ExitCode {
     let started = start_thread_pool(threads.unwrap_or_default());
     let result = started.and_then(|()| match &cli.command {
         Some(command) => command.run(Cli::command),
-        None => open_window(&cli),
+        None => open_window(&cli, began),
     });
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -175,10 +178,17 @@ impl Cli {
 /// The view of the built-in scene.
 const BUILT_IN_VIEW: &str = "path";
 
-/// Opens the window, or renders a picture if there is no display.
-fn open_window(cli: &Cli) -> Result<(), CommandError> {
+/// Opens the window, or renders a picture if there is no display. The program began at this time.
+fn open_window(cli: &Cli, began: Instant) -> Result<(), CommandError> {
     // Open the output before the window, so that an unwritable path fails at once.
     let output = cli.screenshot.as_deref().map(Output::create).transpose()?;
+    if let (Some(_), Some(file)) = (&cli.screenshot, &cli.file) {
+        // So does a missing file, which the window would show.
+        std::fs::metadata(file).map_err(|source| CommandError::File {
+            path: file.clone(),
+            source,
+        })?;
+    }
     let outcome = Outcome::default();
     let load_options = LoadOptions {
         max_memory: cli.memory.bytes(),
@@ -199,9 +209,11 @@ fn open_window(cli: &Cli) -> Result<(), CommandError> {
         load_options,
         screenshot: output.map(|output| ScreenshotOptions {
             output,
-            after: cli.after,
+            due: cli.after.unwrap_or_default(),
             outcome: Arc::clone(&outcome),
         }),
+        began,
+        ..StartOptions::default()
     };
     let ran = run_window(&start);
     match (ran, &cli.screenshot) {
@@ -209,10 +221,12 @@ fn open_window(cli: &Cli) -> Result<(), CommandError> {
         (Ok(()), Some(_)) => {
             let mut outcome = outcome.lock().unwrap_or_else(PoisonError::into_inner);
             let closed = || Err("the window was closed before the screenshot was taken".to_owned());
-            outcome
-                .take()
-                .unwrap_or_else(closed)
-                .map_err(CommandError::Other)
+            let taken = outcome.take().unwrap_or_else(closed);
+            let first = taken.map_err(CommandError::Other)?.first_picture;
+            if let (Some(Due::FirstPicture), Some(after)) = (cli.after, first) {
+                writeln!(stdout(), "{}", shown_time(after))?;
+            }
+            Ok(())
         }
         (Err(error), Some(_)) => Err(CommandError::Other(no_window(&error))),
         (Err(error), None) => {
@@ -264,11 +278,15 @@ struct PictureDefaults {
     picture: PictureArgs,
 }
 
-fn parse_seconds(text: &str) -> Result<Duration, String> {
+fn parse_due(text: &str) -> Result<Due, String> {
+    if text == "first" {
+        return Ok(Due::FirstPicture);
+    }
     let seconds = text.parse().ok();
     seconds
         .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
-        .ok_or_else(|| "expected a non-negative number of seconds".to_owned())
+        .map(Due::After)
+        .ok_or_else(|| "expected a non-negative number of seconds, or “first”".to_owned())
 }
 
 #[cfg(test)]

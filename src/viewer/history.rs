@@ -14,6 +14,8 @@ pub enum Gesture {
     Motion,
     /// The wheel turns.
     Wheel,
+    /// A text field has the focus.
+    Typing,
 }
 
 /// Steps that can be undone and redone.
@@ -108,6 +110,7 @@ impl History {
 mod tests {
     use super::*;
     use crate::parts::PartsChoice;
+    use crate::picks::Snapping;
     use crate::session::Viewpoint;
     use crate::settings::Settings;
     use glam::{DVec3, UVec2};
@@ -126,6 +129,7 @@ mod tests {
             comparison: crate::comparison::Comparison::default(),
             parts: PartsChoice::default(),
             picks: Vec::new(),
+            snapping: Snapping::default(),
         }
     }
 

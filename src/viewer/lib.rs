@@ -45,6 +45,7 @@ pub mod dialog;
 pub mod display;
 pub mod document;
 pub mod face_lookup;
+pub mod first_picture;
 pub mod flaw_place;
 pub mod folder;
 pub mod go_to;

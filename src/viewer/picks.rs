@@ -8,10 +8,11 @@ use hitscope_core::scene::{Scene, Shading};
 use hitscope_core::{Camera, Intersector};
 use hitscope_lab::inspection::HitReport;
 use hitscope_lab::json;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What a pick's point snaps to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Snapping {
     /// Nothing: the point is the hit.
     Off,

@@ -12,6 +12,7 @@ pub use picked_pixel::PickedPixel;
 
 use crate::comparison::Comparison;
 use crate::parts::PartsChoice;
+use crate::picks::Snapping;
 use crate::settings::Settings;
 use crate::storage::usable;
 use crate::tab::Tab;
@@ -62,9 +63,12 @@ pub struct Sight {
     /// Hidden parts, and custom colours of parts.
     #[serde(default, serialize_with = "compact::changed")]
     pub parts: PartsChoice,
-    /// The picked pixels.
+    /// The list of picks.
     #[serde(default)]
     pub picks: Vec<PickedPixel>,
+    /// What picks snap to.
+    #[serde(default)]
+    pub snapping: Snapping,
 }
 
 impl Session {
@@ -164,11 +168,24 @@ pub fn is_session(path: &Path) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::comparison::Side;
     use crate::document::embedded_scene;
     use crate::overlay::wireframe::WIREFRAME;
+    use crate::picks;
     use glam::{DVec3, UVec2};
-    use hitscope_core::Scene;
     use hitscope_core::camera::Turntable;
+    use hitscope_core::{Camera, Scene};
+
+    fn pick(number: u32, name: &str, camera: Camera) -> picks::PickedPixel {
+        picks::PickedPixel {
+            number,
+            name: name.to_owned(),
+            is_pinned: !name.is_empty(),
+            side: Side::A,
+            camera,
+            pixel: UVec2::new(3, 4),
+        }
+    }
 
     fn session(scene: &Scene) -> Session {
         let mut turntable = Turntable::framing(scene.bounds(), UVec2::new(64, 48));
@@ -193,7 +210,11 @@ mod tests {
                 ..Comparison::default()
             },
             parts: PartsChoice::default(),
-            picks: vec![PickedPixel::new(&camera, UVec2::new(3, 4), Some(1), origin)],
+            picks: vec![
+                PickedPixel::new(&pick(2, "", camera), origin),
+                PickedPixel::new(&pick(5, "corner", camera), origin).selected(Some(1)),
+            ],
+            snapping: Snapping::Edge,
         };
         Session::new(Some("/a/b/mesh.obj".into()), sight, true, Tab::Mesh)
     }
@@ -212,19 +233,38 @@ mod tests {
         let origin = loaded.scene.mesh().origin();
         let turntable = read.sight.camera.turntable(&loaded.scene);
         assert_eq!(Viewpoint::of(&turntable, origin), session.sight.camera);
-        let camera = read.sight.picks[0].camera(origin).expect("a camera");
-        let again = PickedPixel::new(&camera, UVec2::new(3, 4), Some(1), origin);
-        assert_eq!(again, session.sight.picks[0]);
+        let listed = read.sight.picks[0].in_scene(origin).expect("a camera");
+        assert_eq!(PickedPixel::new(&listed, origin), session.sight.picks[0]);
+        let listed = read.sight.picks[1].in_scene(origin).expect("a camera");
+        let again = PickedPixel::new(&listed, origin).selected(Some(1));
+        assert_eq!(again, session.sight.picks[1]);
+    }
+
+    #[test]
+    fn a_pick_without_number_and_name_is_read_and_selected() {
+        let loaded = embedded_scene();
+        let text = session(&loaded.scene).text_at(Path::new("x"));
+        let mut value: serde_json::Value =
+            serde_json::from_str(&text.expect("UTF-8")).expect("JSON");
+        let first = value["sight"]["picks"][0].as_object_mut().expect("a pick");
+        for field in ["number", "is_selected"] {
+            assert!(first.remove(field).is_some(), "{field}");
+        }
+        let read = Session::of_text(&value.to_string()).expect("a session");
+        let first = &read.sight.picks[0];
+        assert_eq!((first.number, first.name.as_str()), (0, ""));
+        assert!(first.is_selected && !first.is_pinned);
     }
 
     #[test]
     fn a_session_has_no_defaults_and_a_line_for_each_list() {
         let loaded = embedded_scene();
-        let text = session(&loaded.scene).text_at(Path::new("x"));
-        let text = text.expect("UTF-8");
+        let mut session = session(&loaded.scene);
+        session.sight.picks.truncate(1);
+        let text = session.text_at(Path::new("x")).expect("UTF-8");
         assert!(text.contains("\"pixel\": [3, 4]"), "{text}");
         assert!(text.contains("\"width_px\": 2.3"), "{text}");
-        for default in ["ao_distance", "gain", "normals"] {
+        for default in ["ao_distance", "gain", "normals", "\"name\"", "is_pinned"] {
             assert!(!text.contains(default), "{default}: {text}");
         }
         assert!(text.len() < 2500, "{text}");
@@ -271,7 +311,11 @@ mod tests {
             assert!(error.contains(reason), "{to}: {error}");
         }
         type Change = (fn(&mut Session), &'static str);
-        let changes: [Change; 3] = [
+        let changes: [Change; 4] = [
+            (
+                |bad| bad.sight.picks[1].number = u32::MAX,
+                "number is larger",
+            ),
             (
                 |bad| bad.sight.picks[0].pixel = [64, 4],
                 "outside the picture",

@@ -18,6 +18,8 @@ mod rounded_t;
 // Packets and single rays: bit-identical results.
 mod packets;
 
+// Pictures rendered in strips: bit-identical to those rendered whole.
+mod strips;
 // Every tree: bit-identical results.
 mod trees;
 

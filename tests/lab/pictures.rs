@@ -1,7 +1,44 @@
 //! Pictures of several views, with scales, legends, distances and numbers.
 
 use crate::folder::Folder;
-use hitscope_lab::commands::{CommandError, RenderArgs};
+use hitscope_lab::commands::{CommandError, OverlayPen, RenderArgs, Rendered};
+
+/// The PNG file and the figures of a picture of 67 × 131 pixels, rendered in strips of this memory.
+fn in_strips(options: &str, strip_bytes: u64) -> (Vec<u8>, String) {
+    let folder = Folder::new();
+    let line = format!("@cube.obj --size 67x131 --eye 3,2,4 -o @out.png {options}");
+    let mut args: RenderArgs = folder.args(&line);
+    args.strip_bytes = strip_bytes;
+    // Draws the number of each row over its first pixel.
+    let pen = || {
+        let draw = |pixels: &mut [[u8; 4]], rendered: &Rendered| {
+            for (y, row) in rendered.rows.clone().zip(pixels.chunks_mut(67)) {
+                row[0] = [y as u8; 4];
+            }
+            Ok(())
+        };
+        Ok(Box::new(draw) as OverlayPen<'_>)
+    };
+    let mut figures = Vec::new();
+    args.run(pen, &mut figures).expect("rendered");
+    let picture = std::fs::read(folder.path("out.png")).expect("written");
+    (picture, String::from_utf8(figures).expect("text"))
+}
+
+#[test]
+fn a_picture_in_strips_is_the_same_file_with_the_same_figures() {
+    for options in [
+        "--samples 4",
+        "--samples 4 --view path --noise --exposure 1",
+        "--samples 4 --view depth --noise --legend",
+        "--transparent --samples 4",
+        "--wireframe",
+    ] {
+        let whole = in_strips(options, u64::MAX);
+        assert_eq!(in_strips(options, 0), whole, "{options}");
+        assert_eq!(whole.1.is_empty(), !options.contains("--noise"));
+    }
+}
 
 /// The cube from a corner.
 const CUBE: &str = "@cube.obj --size 32x24 --samples 1 --eye 3,2,4 --target 0.5,0.5,0.5";

@@ -10,6 +10,7 @@ use hitscope::app::App;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::integrator::INTEGRATORS;
 use std::path::PathBuf;
+use std::time::Instant;
 
 #[test]
 fn a_file_opens_and_stays_if_the_next_one_is_bad() {
@@ -306,4 +307,25 @@ fn framing_includes_lines_and_points_and_the_status_line_counts_one_triangle() {
         press(&mut window, Key::Home);
     }
     window.get_by_label_contains("1 triangle  ·");
+}
+
+#[test]
+fn the_status_line_tells_the_time_to_the_first_picture() {
+    let began = Instant::now();
+    let Some(mut window) = app(None) else { return };
+    wait(&mut window, "the time", |app| app.first_picture().is_some());
+    window.run_steps(2);
+    let after = window.state().first_picture();
+    assert!(after <= Some(began.elapsed()), "{after:?}");
+    let times = |window: &Window| {
+        let labels = window.query_all_by_label_contains("first picture after");
+        labels.map(|label| label.rect()).collect::<Vec<_>>()
+    };
+    let line = times(&window);
+    assert_eq!(line.len(), 1);
+    // The line is cut off here, so that a tooltip shows all of it.
+    window.event(egui::Event::PointerMoved(line[0].center()));
+    window.run_steps(60);
+    assert_eq!(times(&window).len(), 2);
+    assert_eq!(window.state().first_picture(), after);
 }

@@ -13,7 +13,7 @@ use hitscope::gpu::drawing::{Canvas, Drawing, DrawingState, DrawnLines, Overlay,
 use hitscope::gpu::lines::{Fade, Line, LineKind, LineOcclusion, LineSet, StyleUniform};
 use hitscope::gpu::slices::Pace;
 use hitscope::gpu::view::ViewUniform;
-use hitscope::offscreen::{self, read_back};
+use hitscope::offscreen::{self, OverlayTiles, read_back};
 use hitscope::overlay::wireframe::{self, WIREFRAME, WireframeEdges};
 use hitscope_core::camera::{Camera, Projection};
 use hitscope_core::kernel::default_triangle_kernel;
@@ -226,6 +226,13 @@ fn an_overlay_in_tiles_is_the_same_picture() {
             pixels
         };
         let tiled = pixels(&device, &queue);
+        // Strips that end inside of tiles.
+        let mut in_strips = vec![[100, 150, 200, 255]; size.element_product() as usize];
+        let mut tiles = OverlayTiles::new((&device, &queue), &input, &overlays).expect("ready");
+        for (strip, first_row) in in_strips.chunks_mut(300 * 48).zip((0..).step_by(48)) {
+            tiles.draw_onto(strip, first_row, || true).expect("drawn");
+        }
+        assert!(in_strips == tiled);
         let whole = pixels(&shared.device, &shared.queue);
         assert!(whole.iter().any(|pixel| *pixel != whole[0]));
         // The corners of lines are rounded by another matrix: by some 1e-4 pixels, a part of a step of colour. Where a line

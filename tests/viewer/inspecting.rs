@@ -22,7 +22,7 @@ pub fn middle(window: &Window, pixel: UVec2) -> Pos2 {
 }
 
 /// Pixels of the picture, one for each of some triangles.
-fn pixels_on_triangles(window: &Window, count: usize) -> Vec<UVec2> {
+pub fn pixels_on_triangles(window: &Window, count: usize) -> Vec<UVec2> {
     let app = window.state();
     let size = app.film().size();
     let camera = app.turntable().camera(size);
@@ -47,13 +47,13 @@ fn pixels_on_triangles(window: &Window, count: usize) -> Vec<UVec2> {
 }
 
 /// The app with a sample in each pixel.
-fn ready() -> Option<Window> {
+pub fn ready() -> Option<Window> {
     let mut window = app(None)?;
     wait(&mut window, "the picture", App::is_settled);
     Some(window)
 }
 
-fn pick(window: &mut Window, pixel: UVec2) {
+pub fn pick(window: &mut Window, pixel: UVec2) {
     let at = middle(window, pixel);
     click(window, at);
     // A click waits for the second one of a double click.
@@ -66,7 +66,7 @@ fn pick(window: &mut Window, pixel: UVec2) {
 }
 
 /// Ctrl+click.
-fn add_pick(window: &mut Window, pixel: UVec2) {
+pub fn add_pick(window: &mut Window, pixel: UVec2) {
     let at = middle(window, pixel);
     let ctrl = Modifiers::COMMAND | Modifiers::CTRL;
     window.event(Event::PointerMoved(at));
@@ -83,7 +83,7 @@ fn add_pick(window: &mut Window, pixel: UVec2) {
 }
 
 /// Waits until a label contains a text.
-fn wait_for_label(window: &mut Window, text: &str) {
+pub fn wait_for_label(window: &mut Window, text: &str) {
     for _ in 0..400 {
         if window.query_all_by_label_contains(text).next().is_some() {
             return;
@@ -94,7 +94,7 @@ fn wait_for_label(window: &mut Window, text: &str) {
     panic!("no label contains “{text}”");
 }
 
-fn has(window: &Window, label: &str) -> bool {
+pub fn has(window: &Window, label: &str) -> bool {
     window.query_all_by_label(label).next().is_some()
 }
 

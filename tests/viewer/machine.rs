@@ -103,7 +103,7 @@ fn a_picture_too_large_for_the_memory_is_reported_in_one_line() {
     let program = Program::new();
     // 89 bytes for each of 67 million pixels, with a limit of 3 GB.
     let ran = program
-        .shell("ulimit -v 3000000; exec \"$hitscope\" render good.obj -o out.png --size 8192x8192");
+        .shell("ulimit -v 3000000; exec \"$hitscope\" render good.obj -o out.exr --size 8192x8192");
     let message = "hitscope: there isn't enough memory for a picture of 8192x8192 pixels";
     assert_fails(&ran, 1, message);
 }
@@ -112,9 +112,12 @@ fn a_picture_too_large_for_the_memory_is_reported_in_one_line() {
 fn the_memory_limit_includes_the_picture_and_refuses_nothing_that_fits() {
     let program = Program::new();
     // 89 bytes for each of 180 000 pixels: 15.3 MiB.
-    let render = |more: &str| program.run(&format!("render {more} -o out.png --size 600x300"));
+    let render = |more: &str| program.run(&format!("render {more} -o out.exr --size 600x300"));
     assert!(render("good.obj --max-memory 16").status.success());
     let ran = render("none.obj --max-memory 15");
+    assert_fails(&ran, 2, "error: a picture of 600x300 pixels takes 16 MB");
+    let ran = program
+        .run("render good.obj -o out.png --size 600x300 --depth-map depth.exr --max-memory 15");
     assert_fails(&ran, 2, "error: a picture of 600x300 pixels takes 16 MB");
     // The picture that replaces the window: 89 bytes for each of 1280 × 720 pixels, 78.2 MiB.
     let ran = program.run("good.obj --max-memory 78");
@@ -133,4 +136,31 @@ fn the_memory_limit_includes_the_picture_and_refuses_nothing_that_fits() {
     let ran = render("strip.obj --max-memory 16");
     assert_eq!(ran.status.code(), Some(1), "{}", stderr(&ran));
     assert!(stderr(&ran).contains("--max-memory"), "{}", stderr(&ran));
+}
+
+#[test]
+fn a_large_png_picture_is_rendered_in_strips_of_less_memory() {
+    let program = Program::new();
+    // 89 bytes for each of 4 million pixels: 356 MiB.
+    let render = |more: &str| {
+        let line = format!("render good.obj --samples 1 --size 4096x1024 {more}");
+        program.run(&line)
+    };
+    let ran = render("-o whole.exr --max-memory 100");
+    assert_fails(&ran, 2, "error: a picture of 4096x1024 pixels takes 356 MB");
+    for (name, limit) in [("large.png", 8192), ("strips.png", 40)] {
+        let ran = render(&format!("-o {name} --max-memory {limit}"));
+        assert!(ran.status.success(), "{}", stderr(&ran));
+    }
+    let read = |name: &str| std::fs::read(program.path(name)).expect("written");
+    let large = read("large.png");
+    assert_eq!(
+        large[16..24],
+        [4096_u32, 1024].map(u32::to_be_bytes).concat()
+    );
+    assert!(large == read("strips.png"));
+    // Not even one row of tiles.
+    let ran = render("-o large.png --max-memory 16");
+    assert_eq!(ran.status.code(), Some(1), "{}", stderr(&ran));
+    assert!(stderr(&ran).contains("a picture of 4096x1024 pixels takes 17 MB"));
 }

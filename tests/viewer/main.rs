@@ -48,6 +48,10 @@ mod light;
 mod packaging;
 // The path of a picked pixel's sample.
 mod paths;
+// The list of picks in undo and in sessions.
+mod pick_list;
+// Pictures of any size.
+mod picture_dialog;
 // Flaws, reloading and creases of the open mesh.
 mod mesh;
 // The window before, during and after opening a file.

@@ -276,6 +276,10 @@ fn options_without_effect_are_refused() {
         ("lab --case order-edge --lenient", "cannot be used with"),
         (&format!("{render} --target 1,2,3"), "--eye <X,Y,Z>"),
         ("good.obj --after 3", "--screenshot <OUT.png>"),
+        (
+            "good.obj --screenshot out.png --after last",
+            "a non-negative number of seconds, or “first”",
+        ),
     ];
     for (line, message) in cases {
         let ran = program.run(line);

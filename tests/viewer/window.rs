@@ -100,15 +100,57 @@ fn the_window_opens_and_its_screenshot_shows_the_scene() {
 }
 
 #[test]
+fn a_screenshot_of_the_first_picture_tells_the_time_to_it() {
+    if gpu().is_none() {
+        return;
+    }
+    let Some(xvfb) = Xvfb::start() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let mesh = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
+    std::fs::write(folder.path().join("mesh.obj"), mesh).expect("written");
+    let began = std::time::Instant::now();
+    let line = ["mesh.obj", "--screenshot", "window.png", "--after", "first"];
+    let ran = xvfb.hitscope(&folder, &line);
+    let lasted = began.elapsed().as_secs_f64();
+    let said = String::from_utf8_lossy(&ran.stderr);
+    assert!(ran.status.success(), "{said}");
+    let printed = String::from_utf8_lossy(&ran.stdout).into_owned();
+    let time = printed.strip_prefix("first picture after ");
+    let time = time.and_then(|time| time.strip_suffix(" s\n"));
+    let seconds: f64 = time.and_then(|time| time.parse().ok()).expect(&printed);
+    assert!(seconds > 0.0 && seconds < lasted, "{seconds} of {lasted}");
+    // The triangle is in the middle of the picture.
+    let image = image::open(folder.path().join("window.png")).expect("a PNG");
+    let colours: std::collections::HashSet<[u8; 4]> =
+        image.to_rgba8().pixels().map(|pixel| pixel.0).collect();
+    assert!(colours.len() > 2);
+}
+
+#[test]
 fn a_screenshot_of_an_unreadable_file_fails_with_a_reason() {
     if gpu().is_none() {
         return;
     }
     let Some(xvfb) = Xvfb::start() else { return };
     let folder = tempfile::tempdir().expect("a folder");
-    let ran = xvfb.hitscope(&folder, &["none.obj", "--screenshot", "window.png"]);
-    assert_eq!(ran.status.code(), Some(1));
-    let said = String::from_utf8_lossy(&ran.stderr);
-    assert!(said.contains("hitscope: none.obj: "), "{said}");
-    assert!(!folder.path().join("window.png").exists());
+    let bad = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n";
+    std::fs::write(folder.path().join("bad.obj"), bad).expect("written");
+    for (line, reason) in [
+        ("none.obj --screenshot window.png", "hitscope: none.obj: "),
+        (
+            "none.obj --screenshot window.png --after 1",
+            "hitscope: none.obj: ",
+        ),
+        (
+            "bad.obj --screenshot window.png --after 3",
+            "bad.obj:4: no faces left",
+        ),
+    ] {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        let ran = xvfb.hitscope(&folder, &arguments);
+        let said = String::from_utf8_lossy(&ran.stderr);
+        assert_eq!(ran.status.code(), Some(1), "{line}: {said}");
+        assert!(said.contains(reason), "{line}: {said}");
+        assert!(!folder.path().join("window.png").exists());
+    }
 }

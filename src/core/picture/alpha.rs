@@ -42,7 +42,12 @@ impl Alpha {
         let samples = plan.samples_after(plan.pass_count());
         let pixels = rows(size, threads, progress, 0.0, |y, row| {
             for (x, alpha) in (0..).zip(row) {
-                let hits = hit_count(camera, intersector, UVec2::new(x, y), samples);
+                let hits = hit_count(
+                    camera,
+                    intersector,
+                    plan.in_whole(UVec2::new(x, y)),
+                    samples,
+                );
                 *alpha = hits as f32 / samples as f32;
             }
         })?;

@@ -62,7 +62,7 @@ pub fn guides(
     let samples = plan.samples_after(plan.pass_count());
     let nothing = Sum::default().mean(samples);
     let pixels = rows(size, threads, progress, nothing, |y, row| {
-        trace_row(context, samples, y, row);
+        trace_row(context, samples, plan.in_whole(UVec2::new(0, y)).y, row);
     })?;
     Ok(Guides { size, pixels })
 }

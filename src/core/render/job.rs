@@ -5,6 +5,7 @@ use crate::camera::Projection;
 use crate::film::{Film, SampleSum, TileSamples};
 use crate::integrator::{Context, Integrator, Sample};
 use crate::lane::PACKET;
+use crate::picture::TraceError;
 use crate::plan::{Plan, WorkUnit};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
@@ -23,7 +24,7 @@ pub struct Job {
     pub context: Context,
     /// The view.
     pub integrator: &'static Integrator,
-    /// The order of pixels and samples. Its size is the camera's resolution.
+    /// The order of pixels and samples. Its size is the camera's resolution, unless it is a plan of some rows.
     pub plan: Plan,
 }
 
@@ -129,15 +130,17 @@ impl Job {
     fn traced(&self, places: &[Place]) -> (Vec<Sample>, u32) {
         let context = &self.context;
         let ray = |place: &Place| {
-            let at = Plan::position(place.pixel, place.sample);
-            context.camera.ray(place.pixel, at)
+            let pixel = self.plan.in_whole(place.pixel);
+            let at = Plan::position(pixel, place.sample);
+            context.camera.ray(pixel, at)
         };
         let rays: Vec<Ray> = places.iter().map(ray).collect();
         let mut hits = vec![None; rays.len()];
         context.intersector.coherent_hits(&rays, &mut hits);
         let all = places.iter().zip(rays).zip(hits);
         let sample = |((place, ray), hit): ((&Place, Ray), Option<Hit>)| {
-            Sample::new(ray, hit, Sampler::new(place.pixel, place.sample))
+            let pixel = self.plan.in_whole(place.pixel);
+            Sample::new(ray, hit, Sampler::new(pixel, place.sample))
         };
         let mut samples: Vec<Sample> = all.map(sample).collect();
         let hits = samples.iter().filter(|sample| sample.hit.is_some()).count();
@@ -184,7 +187,8 @@ impl SampleBatch<'_> {
         let (samples, hits) = catch_unwind(AssertUnwindSafe(together)).unwrap_or_else(|panic| {
             // Trace the samples one by one to find the one that panics.
             for place in &self.places {
-                self.at.set((place.pixel, place.sample));
+                let pixel = self.job.plan.in_whole(place.pixel);
+                self.at.set((pixel, place.sample));
                 self.job.traced(from_ref(place));
             }
             resume_unwind(panic)
@@ -211,6 +215,9 @@ pub enum RenderError {
     /// The caller has cancelled it.
     #[error("cancelled")]
     Cancelled,
+    /// The alpha of a transparent background couldn't be traced.
+    #[error(transparent)]
+    Alpha(TraceError),
     /// No thread could be started.
     #[error("the system grants no thread to render with: {0}")]
     NoThread(io::Error),
@@ -253,7 +260,9 @@ pub fn render_while(
     let all = f64::from(size.x) * f64::from(size.y) * f64::from(samples);
     let mut traced = 0.0;
     let film = Film::try_new(job.plan.clone(), job.context.background);
-    let mut film = film.map_err(|_| RenderError::NoMemory { size })?;
+    let mut film = film.map_err(|_| RenderError::NoMemory {
+        size: job.context.camera.resolution(),
+    })?;
     let mut renderer = Renderer::try_new(threads, || ()).map_err(RenderError::NoThread)?;
     renderer.post(job);
     while !film.is_complete() {

@@ -5,9 +5,11 @@
 //! batches of rays, and results of the stale job are dropped.
 
 mod job;
+mod strips;
 mod worker;
 
 pub use job::{
     Job, RenderError, RenderPanic, TileResult, render, render_while, render_with_progress,
 };
+pub use strips::{STRIP_BYTES, Strip, Strips};
 pub use worker::{Message, Renderer};

@@ -84,6 +84,11 @@ impl MemoryArg {
         self.max_memory << 20
     }
 
+    /// The bytes that are left beside a scene whose packed primitives take `packed_bytes`.
+    pub(super) fn left(self, scene: &Scene, packed_bytes: usize) -> u64 {
+        self.bytes().saturating_sub(held_bytes(scene, packed_bytes))
+    }
+
     /// Fails if `bytes` of work exceed the limit together with a scene whose packed primitives take `packed_bytes`.
     ///
     /// # Errors
@@ -95,8 +100,7 @@ impl MemoryArg {
         packed_bytes: usize,
         what: std::fmt::Arguments,
     ) -> Result<(), CommandError> {
-        let mesh: usize = scene.mesh().bytes().iter().map(|(_, bytes)| bytes).sum();
-        let held = (mesh + scene.tree_bytes() + packed_bytes) as u64;
+        let held = held_bytes(scene, packed_bytes);
         if held.saturating_add(bytes) <= self.bytes() {
             return Ok(());
         }
@@ -106,6 +110,12 @@ impl MemoryArg {
             "{what} takes {bytes} MB in addition to the scene's {held} MB; the limit is {limit} MB (--max-memory)"
         )))
     }
+}
+
+/// The memory of a scene and its packed primitives.
+fn held_bytes(scene: &Scene, packed_bytes: usize) -> u64 {
+    let mesh: usize = scene.mesh().bytes().iter().map(|(_, bytes)| bytes).sum();
+    (mesh + scene.tree_bytes() + packed_bytes) as u64
 }
 
 /// The views of a picture.

@@ -20,53 +20,61 @@ const MOST_TICKS: u32 = 12;
 /// The colour of numbers and ticks, with alpha.
 const INK: [u8; 4] = [220, 220, 220, 255];
 
-/// The pixels of a picture, row by row from the top, with the legend to its right; the size of both together.
-pub(super) fn beside(
-    pixels: &[[u8; 4]],
-    size: UVec2,
-    scale: &ColourScale,
-) -> (UVec2, Vec<[u8; 4]>) {
-    // Pixels of the picture per pixel of the font: text of a height that can be read.
-    let zoom = (size.y / 360).max(1);
-    let height = size.y / zoom;
-    let bar = height.saturating_sub(2 * MARGIN).max(1);
-    let ticks = scale.ticks((bar / LINE).clamp(2, MOST_TICKS) as usize);
-    let longest = ticks.iter().map(|tick| tick.label.chars().count()).max();
-    let text = ADVANCE * longest.unwrap_or(0) as u32;
-    let width = MARGIN + BAR + TICK + GAP + text + MARGIN;
-    let strip = Strip {
-        scale,
-        ticks: &ticks,
-        height,
-        bar,
-    };
-    let whole = size + UVec2::new(zoom * width, 0);
-    let mut all = Vec::with_capacity(whole.element_product() as usize);
-    let mut drawn: Vec<[u8; 4]> = Vec::new();
-    for (y, row) in (0..size.y).zip(pixels.chunks(size.x as usize)) {
-        if y % zoom == 0 {
-            let pixel = |x| strip.pixel(UVec2::new(x, y / zoom));
-            drawn = (0..width).map(pixel).collect();
-        }
-        all.extend_from_slice(row);
-        all.extend(
-            drawn
-                .iter()
-                .flat_map(|pixel| repeat_n(*pixel, zoom as usize)),
-        );
-    }
-    (whole, all)
-}
-
-/// The legend, in pixels of the font.
-struct Strip<'a> {
+/// The legend of a picture. Sizes are in pixels of the font.
+pub(super) struct Legend<'a> {
     scale: &'a ColourScale,
-    ticks: &'a [Tick],
+    ticks: Vec<Tick>,
+    width: u32,
     height: u32,
     bar: u32,
+    /// Width of the picture in its own pixels.
+    picture_width: u32,
+    /// Pixels of the picture per pixel of the font: text of a height that can be read.
+    zoom: u32,
 }
 
-impl Strip<'_> {
+impl<'a> Legend<'a> {
+    /// The legend of a picture of `size` pixels.
+    pub(super) fn new(size: UVec2, scale: &'a ColourScale) -> Self {
+        let zoom = (size.y / 360).max(1);
+        let height = size.y / zoom;
+        let bar = height.saturating_sub(2 * MARGIN).max(1);
+        let ticks = scale.ticks((bar / LINE).clamp(2, MOST_TICKS) as usize);
+        let longest = ticks.iter().map(|tick| tick.label.chars().count()).max();
+        let text = ADVANCE * longest.unwrap_or(0) as u32;
+        Self {
+            scale,
+            ticks,
+            width: MARGIN + BAR + TICK + GAP + text + MARGIN,
+            height,
+            bar,
+            picture_width: size.x,
+            zoom,
+        }
+    }
+
+    /// The width of the picture and the legend together, in pixels of the picture.
+    pub(super) fn width_together(&self) -> u32 {
+        self.picture_width + self.zoom * self.width
+    }
+
+    /// Rows of the picture with the legend to their right, beginning with this row.
+    pub(super) fn beside(&self, pixels: &[[u8; 4]], first_row: u32) -> Vec<[u8; 4]> {
+        let rows = pixels.chunks(self.picture_width as usize);
+        let mut all = Vec::with_capacity(rows.len() * self.width_together() as usize);
+        let mut drawn: Vec<[u8; 4]> = Vec::new();
+        for (y, row) in (first_row..).zip(rows) {
+            if y % self.zoom == 0 || drawn.is_empty() {
+                let pixel = |x| self.pixel(UVec2::new(x, y / self.zoom));
+                drawn = (0..self.width).map(pixel).collect();
+            }
+            all.extend_from_slice(row);
+            let wide = |pixel: &[u8; 4]| repeat_n(*pixel, self.zoom as usize);
+            all.extend(drawn.iter().flat_map(wide));
+        }
+        all
+    }
+
     fn pixel(&self, UVec2 { x, y }: UVec2) -> [u8; 4] {
         let Some(x) = x.checked_sub(MARGIN) else {
             return self.background();
@@ -78,7 +86,7 @@ impl Strip<'_> {
             let colour = self.scale.map().colour(self.part_at(up as f32));
             return Display::default().encode(colour);
         }
-        for tick in self.ticks {
+        for tick in &self.ticks {
             let down = (1.0 - self.part_at(tick.part)) * self.bar as f32;
             let middle = top + (down as u32).min(self.bar - 1);
             let is_line = y == middle && (BAR..BAR + TICK).contains(&x);
@@ -129,7 +137,9 @@ mod tests {
         let picture = vec![[1, 2, 3, 255]; 500];
         for range in [[0.0, 10.0], [10.0, 0.0]] {
             let scale = scale(range);
-            let (whole, all) = beside(&picture, size, &scale);
+            let legend = Legend::new(size, &scale);
+            let all = legend.beside(&picture, 0);
+            let whole = UVec2::new(legend.width_together(), size.y);
             // Two digits of “10”.
             assert_eq!(whole, UVec2::new(5 + 8 + 12 + 3 + 2 + 12 + 8, 100));
             let at = |x: u32, y: u32| all[(y * whole.x + x) as usize];
@@ -150,12 +160,26 @@ mod tests {
     #[test]
     fn text_grows_with_the_picture_and_tiny_pictures_have_a_legend_too() {
         let width = |height: u32| {
-            let size = UVec2::new(1, height);
-            let picture = vec![[0; 4]; height as usize];
-            beside(&picture, size, &scale([0.0, 1.0])).0.x - 1
+            let scale = scale([0.0, 1.0]);
+            Legend::new(UVec2::new(1, height), &scale).width_together() - 1
         };
         assert_eq!(width(2000) % 5, 0);
         assert!(width(2000) > 4 * width(300));
         assert!(width(1) > 0);
+    }
+
+    #[test]
+    fn rows_have_the_legend_of_the_whole_picture() {
+        let (size, scale) = (UVec2::new(3, 800), scale([0.0, 1.0]));
+        let picture = vec![[9; 4]; size.element_product() as usize];
+        let legend = Legend::new(size, &scale);
+        let whole = legend.beside(&picture, 0);
+        assert_eq!(whole.len(), (legend.width_together() * 800) as usize);
+        // An odd number of rows: two rows of the picture are one of the legend.
+        for first in [0, 47, 401] {
+            let rows = legend.beside(&picture[..3 * 200], first);
+            let start = (legend.width_together() * first) as usize;
+            assert_eq!(rows, &whole[start..start + rows.len()]);
+        }
     }
 }

@@ -103,7 +103,20 @@ impl Output {
     /// If the number of pixels doesn't match `size`.
     pub fn write_png(&self, size: UVec2, pixels: &[[u8; 4]]) -> Result<(), CommandError> {
         assert_eq!(pixels.len(), size.as_usizevec2().element_product());
-        self.write(|out| {
+        self.write_png_rows(size, |rows| rows.write(pixels))
+    }
+
+    /// Writes a PNG file. `content` receives what writes its rows, from the top.
+    ///
+    /// # Errors
+    /// See [`write`](Self::write); also those of `content`. In either case an older file is unchanged.
+    pub fn write_png_rows<E: From<CommandError>>(
+        &self,
+        size: UVec2,
+        content: impl FnOnce(&mut PngRows<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let mut failed = None;
+        let written = self.write(|out| {
             let mut encoder = png::Encoder::new(out, size.x, size.y);
             encoder.set_color(png::ColorType::Rgba);
             encoder.set_depth(png::BitDepth::Eight);
@@ -111,10 +124,38 @@ impl Output {
             encoder.set_filter(png::Filter::Adaptive);
             let mut writer = encoder.write_header()?;
             let mut stream = writer.stream_writer()?;
-            stream.write_all(pixels.as_flattened())?;
+            let mut rows = PngRows {
+                path: &self.path,
+                stream: &mut stream,
+            };
+            if let Err(error) = content(&mut rows) {
+                failed = Some(error);
+                return Err(io::Error::other("the rows are missing"));
+            }
             stream.finish()?;
             Ok(writer.finish()?)
-        })
+        });
+        match failed {
+            Some(error) => Err(error),
+            None => Ok(written?),
+        }
+    }
+}
+
+/// Writes the rows of a PNG file.
+pub struct PngRows<'a> {
+    path: &'a Path,
+    stream: &'a mut dyn Write,
+}
+
+impl PngRows<'_> {
+    /// Writes the next rows: sRGB pixels with alpha.
+    ///
+    /// # Errors
+    /// [`CommandError::File`] with the system's error.
+    pub fn write(&mut self, pixels: &[[u8; 4]]) -> Result<(), CommandError> {
+        let written = self.stream.write_all(pixels.as_flattened());
+        written.map_err(|source| file_error(self.path, source))
     }
 }
 

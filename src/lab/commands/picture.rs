@@ -3,7 +3,7 @@
 use super::args::ViewArg;
 use super::camera::CameraArgs;
 use super::kernel::parse_kernel;
-use super::legend;
+use super::legend::Legend;
 use super::light::no_effect;
 use super::prepared::PreparedScene;
 use super::scene::SceneArgs;
@@ -21,6 +21,7 @@ use hitscope_core::picture::{Alpha, Guides};
 use hitscope_core::scene::{FirstTree, Shading};
 use hitscope_core::{Camera, Film};
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Options of a traced picture
@@ -59,15 +60,17 @@ pub struct PictureArgs {
     pub threads: ThreadsArg,
 }
 
-/// A traced picture, and the camera and scene for drawing over it.
+/// A traced picture or a strip of one, and the camera and scene for drawing over it.
 pub struct Rendered {
     /// The view.
     pub view: &'static Integrator,
-    /// The picture.
+    /// The rows of the picture.
+    pub rows: Range<u32>,
+    /// These rows.
     pub film: Film,
     /// The scale of its colours, if it shows numbers.
     pub scale: Option<ColourScale>,
-    /// The camera.
+    /// The camera of the whole picture.
     pub camera: Camera,
     /// The scene.
     pub loaded: Arc<LoadedScene>,
@@ -104,34 +107,55 @@ impl Rendered {
     /// The noise, from the variance of each pixel's samples as if they were independent. Samples that are spread evenly
     /// have less. With one sample per pixel it isn't known, and counts as 0.
     pub fn noise(&self) -> Noise {
-        let errors = self.positions().map(|pixel| {
-            let error = self.film.standard_error(pixel).unwrap_or(0.0);
-            (error, pixel)
-        });
-        let (mut sum, mut worst) = (0.0, (0.0, UVec2::ZERO));
-        for (error, pixel) in errors {
-            sum += error;
-            if error > worst.0 {
-                worst = (error, pixel);
-            }
-        }
-        Noise {
-            mean: sum / f64::from(self.film.size().element_product().max(1)),
-            worst: worst.0,
-            worst_at: worst.1,
-        }
+        let mut sum = NoiseSum::default();
+        sum.add(self);
+        sum.noise()
     }
 
     /// The pixels with the legend of the numbers to their right, and the size of both together; `None` if the view shows no
     /// numbers.
     pub fn with_legend(&self, pixels: &[[u8; 4]]) -> Option<(UVec2, Vec<[u8; 4]>)> {
-        let scale = self.scale.as_ref()?;
-        Some(legend::beside(pixels, self.film.size(), scale))
+        let legend = Legend::new(self.camera.resolution(), self.scale.as_ref()?);
+        let size = UVec2::new(legend.width_together(), self.film.size().y);
+        Some((size, legend.beside(pixels, self.rows.start)))
     }
 
     fn positions(&self) -> impl Iterator<Item = UVec2> {
         let UVec2 { x, y } = self.film.size();
         (0..y).flat_map(move |row| (0..x).map(move |column| UVec2::new(column, row)))
+    }
+}
+
+/// The sum of the standard errors of a picture's strips, and the largest one.
+#[derive(Default)]
+pub(super) struct NoiseSum {
+    sum: f64,
+    count: u32,
+    worst: f64,
+    worst_at: UVec2,
+}
+
+impl NoiseSum {
+    /// Adds the next strip.
+    pub(super) fn add(&mut self, rendered: &Rendered) {
+        for pixel in rendered.positions() {
+            let error = rendered.film.standard_error(pixel).unwrap_or(0.0);
+            self.sum += error;
+            if error > self.worst {
+                self.worst = error;
+                self.worst_at = pixel + UVec2::new(0, rendered.rows.start);
+            }
+        }
+        self.count += rendered.film.size().element_product();
+    }
+
+    /// The noise of all strips together.
+    pub(super) fn noise(&self) -> Noise {
+        Noise {
+            mean: self.sum / f64::from(self.count.max(1)),
+            worst: self.worst,
+            worst_at: self.worst_at,
+        }
     }
 }
 
@@ -159,17 +183,24 @@ impl PictureArgs {
     /// # Errors
     /// [`CommandError::Usage`].
     pub fn check(&self) -> Result<(), CommandError> {
-        self.camera.check()?;
-        let file = &self.scene.file;
-        if let Some(views) = self.view.known(file) {
-            self.check_views(&views)?;
-        }
-        self.scene.check()?;
+        self.check_options()?;
         // The size of a scene file's picture may be known only later.
-        match self.camera.known_size(file) {
+        match self.camera.known_size(&self.scene.file) {
             Some(size) => self.check_size(size),
             None => Ok(()),
         }
+    }
+
+    /// The same, whatever the size of the picture.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    pub(super) fn check_options(&self) -> Result<(), CommandError> {
+        self.camera.check()?;
+        if let Some(views) = self.view.known(&self.scene.file) {
+            self.check_views(&views)?;
+        }
+        self.scene.check()
     }
 
     /// The first tree with which `shot_count` pictures of each view take the least time. It is the best tree unless all
@@ -199,15 +230,8 @@ impl PictureArgs {
     /// # Errors
     /// [`CommandError::Usage`].
     pub(super) fn check_size(&self, size: UVec2) -> Result<(), CommandError> {
-        let (bytes, memory) = (picture_bytes(size), self.scene.mesh.memory);
-        if bytes <= memory.bytes() {
-            return Ok(());
-        }
-        let UVec2 { x, y } = size;
-        let (megabytes, limit) = (bytes.div_ceil(1 << 20), memory.max_memory);
-        Err(CommandError::Usage(format!(
-            "a picture of {x}x{y} pixels takes {megabytes} MB; the limit is {limit} MB (--max-memory)"
-        )))
+        let fits = require_picture_memory(size, self.scene.mesh.memory.bytes());
+        fits.map_err(CommandError::Usage)
     }
 
     /// Refuses options that don't change the picture of any of the views.
@@ -260,7 +284,23 @@ impl PictureArgs {
     }
 }
 
-/// The memory of a picture.
+/// Refuses a picture that isn't rendered in strips and exceeds a memory limit in bytes.
+///
+/// # Errors
+/// A message for the user.
+pub fn require_picture_memory(size: UVec2, max_memory: u64) -> Result<(), String> {
+    let bytes = picture_bytes(size);
+    if bytes <= max_memory {
+        return Ok(());
+    }
+    let UVec2 { x, y } = size;
+    let (megabytes, limit) = (bytes.div_ceil(1 << 20), max_memory >> 20);
+    Err(format!(
+        "a picture of {x}x{y} pixels takes {megabytes} MB; the limit is {limit} MB (--max-memory)"
+    ))
+}
+
+/// The memory of a picture that isn't rendered in strips.
 pub(super) fn picture_bytes(size: UVec2) -> u64 {
     let UVec2 { x, y } = size;
     u64::from(x) * u64::from(y) * BYTES_PER_PIXEL as u64

@@ -1,19 +1,22 @@
 //! A loaded scene, ready for the pictures of its views by any camera.
 
+use super::legend::Legend;
 use super::light::SceneLight;
 use super::picture::{DARK_BACKGROUND, PictureArgs, Rendered, picture_bytes};
 use super::{CameraArgs, CommandError};
 use crate::progress::Meter;
-use glam::Vec3;
+use glam::{UVec2, Vec3};
+use hitscope_core::colour::ColourScale;
 use hitscope_core::integrator::{Context, Integrator, Lighting, ViewOptions};
 use hitscope_core::loading::LoadedScene;
-use hitscope_core::picture::{Alpha, Guides, TraceError, VisibleSurfaces, guides};
+use hitscope_core::picture::{Guides, TraceError, VisibleSurfaces, guides};
 use hitscope_core::plan::Plan;
 use hitscope_core::progress::Progress;
-use hitscope_core::render::{Job, render_with_progress};
+use hitscope_core::render::{Job, Strip, Strips};
 use hitscope_core::srgb::from_display;
 use hitscope_core::{Camera, Intersector};
 use std::cell::OnceCell;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// A loaded scene, packed for its kernel, with its views and its light.
@@ -71,7 +74,30 @@ impl PreparedPicture<'_> {
         self.scene.loaded()
     }
 
-    /// Traces the picture of a view. `meter` shows how much of it is traced.
+    /// Prepares the picture of a view.
+    ///
+    /// # Errors
+    /// See [`CommandError`].
+    pub fn view(&self, view: &'static Integrator) -> Result<PreparedView<'_>, CommandError> {
+        let (scene, args) = (self.scene, self.scene.args);
+        let default = || args.scene.kernel.choice.default_second();
+        let chosen = args.against.unwrap_or_else(default);
+        let second = view.second(&scene.loaded.scene, &scene.intersector, chosen);
+        let mut context = args.colours.apply(self.context(view, second), view)?;
+        context.options.has_transparent_background = scene.is_transparent;
+        Ok(PreparedView {
+            picture: self,
+            // The colours were checked.
+            scale: view.scale(&context).ok().flatten(),
+            job: Job {
+                context,
+                integrator: view,
+                plan: Plan::new(self.camera.resolution(), 1, args.samples),
+            },
+        })
+    }
+
+    /// Traces the whole picture of a view. `meter` shows how much of it is traced.
     ///
     /// # Errors
     /// See [`CommandError`].
@@ -80,46 +106,9 @@ impl PreparedPicture<'_> {
         view: &'static Integrator,
         meter: &Meter,
     ) -> Result<Rendered, CommandError> {
-        let (scene, args) = (self.scene, self.scene.args);
-        let default = || args.scene.kernel.choice.default_second();
-        let chosen = args.against.unwrap_or_else(default);
-        let second = view.second(&scene.loaded.scene, &scene.intersector, chosen);
-        self.require_memory(&second)?;
-        let mut context = args.colours.apply(self.context(view, second), view)?;
-        context.options.has_transparent_background = scene.is_transparent;
-        let (shading, threads) = (context.shading, args.threads.count());
-        // The colours were checked.
-        let scale = view.scale(&context).ok().flatten();
-        let job = Job {
-            context,
-            integrator: view,
-            plan: Plan::new(self.camera.resolution(), 1, args.samples),
-        };
-        let guides = if scene.has_guides {
-            Some(self.guides(&job)?)
-        } else {
-            None
-        };
-        let alpha = if scene.is_transparent {
-            let (intersector, progress) = (&*job.context.intersector, Progress::default());
-            let alpha = Alpha::trace(&self.camera, intersector, &job.plan, threads, &progress);
-            Some(alpha.map_err(other)?)
-        } else {
-            None
-        };
-        let mut film = render_with_progress(job, threads, |part| meter.set(part))?;
-        film.set_display(args.display.display());
-        Ok(Rendered {
-            view,
-            film,
-            scale,
-            camera: self.camera,
-            up_axis: args.camera.up_axis(scene.loaded.view.as_ref()),
-            loaded: Arc::clone(&scene.loaded),
-            shading,
-            guides,
-            alpha,
-        })
+        let view = self.view(view)?;
+        view.require_whole()?;
+        view.trace(0..view.size().y, meter)
     }
 
     /// Traces what the centres of the pixels show.
@@ -162,19 +151,106 @@ impl PreparedPicture<'_> {
         let guides = Arc::new(guides.map_err(other)?);
         Ok(Arc::clone(self.guides.get_or_init(|| guides)))
     }
+}
 
-    /// Refuses a picture that exceeds the memory limit together with the mesh.
-    fn require_memory(&self, second: &Arc<dyn Intersector>) -> Result<(), CommandError> {
-        let first = &self.scene.intersector;
-        let mut packed_bytes = first.bytes();
-        if !Arc::ptr_eq(first, second) {
-            packed_bytes += second.bytes();
-        }
-        let size = self.camera.resolution();
+/// A prepared picture of a view.
+pub struct PreparedView<'a> {
+    picture: &'a PreparedPicture<'a>,
+    job: Job,
+    /// The scale of its colours, if it shows numbers.
+    scale: Option<ColourScale>,
+}
+
+impl PreparedView<'_> {
+    /// The scale of its colours, if it shows numbers.
+    pub fn scale(&self) -> Option<&ColourScale> {
+        self.scale.as_ref()
+    }
+
+    /// The name of the view.
+    pub fn name(&self) -> &'static str {
+        self.job.integrator.name
+    }
+
+    /// The legend, if the view shows numbers.
+    pub(super) fn legend(&self) -> Option<Legend<'_>> {
+        Some(Legend::new(self.size(), self.scale()?))
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> UVec2 {
+        self.job.plan.size()
+    }
+
+    /// The strips of the picture, with at most `bytes` of memory each, and less if the memory limit requires it.
+    ///
+    /// # Errors
+    /// [`CommandError::Other`] if there isn't enough memory for any strip.
+    pub fn strips(&self, bytes: u64) -> Result<Strips, CommandError> {
+        let memory = self.picture.scene.args.scene.mesh.memory;
+        let left = memory.left(&self.picture.loaded().scene, self.packed_bytes());
+        let strips = Strips::new(self.size(), bytes.min(left));
+        self.require_memory(strips.bytes())?;
+        Ok(strips)
+    }
+
+    /// Traces rows of the picture. `meter` shows how much of the whole picture is traced.
+    ///
+    /// # Errors
+    /// See [`CommandError`].
+    pub fn trace(&self, rows: Range<u32>, meter: &Meter) -> Result<Rendered, CommandError> {
+        let (picture, job) = (self.picture, &self.job);
+        let (scene, args) = (picture.scene, picture.scene.args);
+        let advanced = |part| {
+            meter.set(part);
+            true
+        };
+        let (threads, progress) = (args.threads.count(), Progress::default());
+        let strip = Strip::render(job, rows, threads, &progress, advanced)?;
+        let Strip {
+            rows,
+            mut film,
+            alpha,
+        } = strip;
+        film.set_display(args.display.display());
+        let guides = scene.has_guides.then(|| picture.guides(job));
+        let guides = guides.transpose()?;
+        Ok(Rendered {
+            view: job.integrator,
+            rows,
+            film,
+            scale: self.scale,
+            camera: picture.camera,
+            up_axis: args.camera.up_axis(scene.loaded.view.as_ref()),
+            loaded: Arc::clone(&scene.loaded),
+            shading: job.context.shading,
+            guides,
+            alpha,
+        })
+    }
+
+    /// The memory of the scene's packed primitives.
+    fn packed_bytes(&self) -> usize {
+        let (first, second) = (&self.picture.scene.intersector, &self.job.context.second);
+        let has_second = !Arc::ptr_eq(first, second);
+        first.bytes() + if has_second { second.bytes() } else { 0 }
+    }
+
+    /// Refuses a whole picture that exceeds the memory limit together with the mesh.
+    ///
+    /// # Errors
+    /// [`CommandError::Other`].
+    pub(super) fn require_whole(&self) -> Result<(), CommandError> {
+        self.require_memory(picture_bytes(self.size()))
+    }
+
+    /// Refuses work of this many bytes that exceeds the memory limit together with the mesh.
+    fn require_memory(&self, bytes: u64) -> Result<(), CommandError> {
+        let size = self.size();
         let what = format_args!("a picture of {}x{} pixels", size.x, size.y);
-        let memory = self.scene.args.scene.mesh.memory;
-        let scene = &self.loaded().scene;
-        memory.require(picture_bytes(size), scene, packed_bytes, what)
+        let memory = self.picture.scene.args.scene.mesh.memory;
+        let scene = &self.picture.loaded().scene;
+        memory.require(bytes, scene, self.packed_bytes(), what)
     }
 }
 

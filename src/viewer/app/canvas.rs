@@ -192,6 +192,12 @@ impl App {
                 .shape(canvas.rect, canvas.part, texture.as_ref()),
         );
         self.paint_other(ui, canvas, texture.as_ref());
+        let document = &self.open.document;
+        // The scene may have another tree by now.
+        let is_current = std::ptr::eq(scene.mesh(), document.loaded.scene.mesh());
+        if is_current && !document.is_blank {
+            self.shown.first_picture.draw(ui.ctx());
+        }
         if let Some(error) = error {
             self.seen.settings.overlays.turn_off_added();
             self.error(error);

@@ -118,7 +118,7 @@ impl App {
                         ". The session {session} needs this file: put it back, or write its new place to “file” in the session"
                     );
                 }
-                if let Some(screenshot) = &self.screenshot {
+                if let Some(screenshot) = &mut self.screenshot {
                     screenshot.fail(ctx, message.clone());
                 }
                 self.error(message);

@@ -9,7 +9,8 @@
 //! | `pointer`, `pick`, `copying` | clicks on the picture; the picked pixel; its inspection as text |
 //! | `navigation`, `gizmo` | drags, scrolling, flying and animated changes of the view; the axis gizmo |
 //! | `magnifier`, `pixel_values` | the magnified picture, and the values in its pixels |
-//! | `pictures`, `picture_dialog` | pictures of what is on the screen; pictures of any size |
+//! | `pictures` | pictures of what is on the screen |
+//! | `picture_dialog`, `picture_order` | pictures of any size: the dialog; rendering and saving |
 //! | `work` | long-running background work |
 //! | `feedback` | messages: the notice, toasts and the log |
 //! | `inspecting` | the list of picks, measuring, the read-out under the pointer, going to elements |
@@ -55,6 +56,7 @@ mod parts;
 mod path;
 mod pick;
 mod picture_dialog;
+mod picture_order;
 mod pictures;
 mod pixel_values;
 mod pointer;
@@ -85,12 +87,13 @@ use crate::tracer::Tracer;
 use comparing::Compared;
 use feedback::Feedback;
 use hitscope_core::obj::{FaultPolicy, LoadOptions};
+use hitscope_core::render::STRIP_BYTES;
 use hitscope_lab::commands::default_thread_count;
 use navigation::Navigation;
 use parts::{Open, Picked, Seen, Shown, Traced};
 use pictures::Pictures;
 use std::path::PathBuf;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Options for starting the window.
 #[derive(Clone, Debug)]
@@ -105,6 +108,10 @@ pub struct StartOptions {
     pub load_options: LoadOptions,
     /// If set, saves a screenshot and closes the window.
     pub screenshot: Option<crate::screenshot::ScreenshotOptions>,
+    /// When the program began.
+    pub began: Instant,
+    /// Memory of the strips in which pictures of any size are rendered, in bytes. Pictures don't depend on it.
+    pub strip_bytes: u64,
 }
 
 impl Default for StartOptions {
@@ -119,6 +126,8 @@ impl Default for StartOptions {
                 ..LoadOptions::default()
             },
             screenshot: None,
+            began: Instant::now(),
+            strip_bytes: STRIP_BYTES,
         }
     }
 }
@@ -170,14 +179,14 @@ impl App {
             open: Open::new(document, start.load_options),
             seen,
             picked: Picked::default(),
-            shown: Shown::new(&render_state),
+            shown: Shown::new(&render_state, start.began),
             traced: Traced::new(tracer, &render_state),
             compared: Compared::new(&render_state),
             preferences: start.preferences,
             history: History::default(),
             navigation: Navigation::default(),
             feedback: Feedback::default(),
-            pictures: Pictures::default(),
+            pictures: Pictures::new(start.strip_bytes),
             faults: Faults::watch(&render_state.device, ctx),
             ctx: ctx.clone(),
             screenshot: start.screenshot.map(Screenshot::new),
@@ -218,6 +227,7 @@ impl eframe::App for App {
         if self.leaves_window(ctx) {
             return;
         }
+        self.shown.first_picture.begin_frame();
         if ctx.input(|input| input.viewport().close_requested()) {
             self.stop_work();
         }
@@ -253,7 +263,7 @@ impl eframe::App for App {
             self.shown.fit_to_screen.step(ctx);
         }
         if let Some(screenshot) = &mut self.screenshot {
-            screenshot.step(ctx, is_settled);
+            screenshot.step(ctx, is_settled, self.shown.first_picture.after());
         }
     }
 

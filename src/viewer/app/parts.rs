@@ -27,6 +27,7 @@ use crate::command::palette::Palette;
 use crate::comparison::{Comparison, Side};
 use crate::document::Document;
 use crate::face_lookup::FaceLookup;
+use crate::first_picture::FirstPicture;
 use crate::flaw_place::FlawPlace;
 use crate::gpu::picture::Picture;
 use crate::look::Development;
@@ -51,6 +52,7 @@ use hitscope_core::obj::LoadOptions;
 use hitscope_core::{Camera, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Instant;
 
 /// What is open, and work on files.
 pub(crate) struct Open {
@@ -159,9 +161,10 @@ pub(crate) struct Picked {
 }
 
 impl Picked {
-    /// Clears the pick, and a click that may become one.
+    /// Inspects no pick, and forgets a click that may become one.
     pub fn clear_pick(&mut self) {
         (self.pick, self.picking, self.face_lookup) = (None, None, None);
+        self.inspecting.picks.selected = None;
         self.clicks.pending = None;
     }
 
@@ -190,10 +193,12 @@ pub(crate) struct Shown {
     pub panel_limit: f32,
     /// UI thread times per frame.
     pub ui_times: Times,
+    pub first_picture: FirstPicture,
 }
 
 impl Shown {
-    pub fn new(render_state: &RenderState) -> Self {
+    /// Nothing yet in a program that began at this time.
+    pub fn new(render_state: &RenderState, began: Instant) -> Self {
         Self {
             palette: Palette::default(),
             sheet: None,
@@ -206,6 +211,7 @@ impl Shown {
             panel_width: 0.0,
             panel_limit: 0.0,
             ui_times: Times::default(),
+            first_picture: FirstPicture::new(began),
         }
     }
 }

@@ -1,34 +1,20 @@
 //! The dialog for pictures of any size: they are rendered in the background and saved beside the open file.
 
 use super::App;
+use super::picture_order::{Format, Order, OrderState, OrderedOverlay};
 use super::pictures::free_path;
 use crate::number_field::number_field;
-use crate::offscreen;
-use crate::overlay::{OverlayInput, Overlays};
 use crate::task::{Task, TaskPanicked};
 use egui::ProgressBar;
 use glam::{UVec2, Vec3};
 use hitscope_core::camera::MAX_SIDE;
 use hitscope_core::obj::shown;
-use hitscope_core::picture::{Alpha, TraceError};
 use hitscope_core::plan::{MAX_SAMPLES, Plan};
-use hitscope_core::progress::Progress;
-use hitscope_core::render::{Job, RenderError, render_while};
-use hitscope_core::tone::Display;
-use hitscope_lab::commands::{Output, default_thread_count};
+use hitscope_core::render::Job;
+use hitscope_lab::commands::require_picture_memory;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::time::Duration;
-
-/// The file format of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Format {
-    /// 8 bits per channel, as on the screen.
-    Png,
-    /// Light as numbers, without lines.
-    Exr,
-}
 
 /// The options of the picture, and the one that is being rendered.
 pub(super) struct PictureDialog {
@@ -57,25 +43,14 @@ impl Default for PictureDialog {
 
 /// A picture that is being rendered.
 struct Rendering {
-    state: Arc<RenderingState>,
+    state: Arc<OrderState>,
     /// `None` if it was cancelled.
     task: Task<Result<Option<PathBuf>, String>>,
 }
 
-/// What the window and the thread share.
-#[derive(Default)]
-struct RenderingState {
-    /// The traced part in thousandths.
-    thousandths: AtomicU32,
-    is_cancelled: AtomicBool,
-    /// Progress of tracing the alpha of a transparent background.
-    alpha: Progress,
-}
-
 impl Drop for Rendering {
     fn drop(&mut self) {
-        self.state.is_cancelled.store(true, Ordering::Relaxed);
-        self.state.alpha.cancel();
+        self.state.cancel();
     }
 }
 
@@ -104,8 +79,7 @@ impl PictureDialog {
             .show(ctx, |ui| match &self.rendering {
                 Some(rendering) => {
                     ui.ctx().request_repaint_after(Duration::from_millis(100));
-                    let part = rendering.state.thousandths.load(Ordering::Relaxed);
-                    let bar = ProgressBar::new(part as f32 / 1000.0).show_percentage();
+                    let bar = ProgressBar::new(rendering.state.part()).show_percentage();
                     ui.add(bar.desired_width(240.0));
                     ui.button("Cancel").clicked().then_some(Choice::Cancel)
                 }
@@ -155,66 +129,6 @@ impl PictureDialog {
     }
 }
 
-/// A picture to render and save.
-struct Order {
-    job: Job,
-    display: Display,
-    overlay: Option<(OverlayInput, Overlays, wgpu::Device, wgpu::Queue)>,
-    format: Format,
-    path: PathBuf,
-}
-
-impl Order {
-    /// Renders and saves the picture; `None` if it was cancelled.
-    fn carry_out(self, state: &RenderingState) -> Result<Option<PathBuf>, String> {
-        let advanced = |part: f64| {
-            let thousandths = (1000.0 * part) as u32;
-            state.thousandths.store(thousandths, Ordering::Relaxed);
-            !state.is_cancelled.load(Ordering::Relaxed)
-        };
-        let (camera, plan) = (self.job.context.camera, self.job.plan.clone());
-        let intersector = Arc::clone(&self.job.context.intersector);
-        let is_transparent = self.job.context.options.has_transparent_background;
-        let threads = default_thread_count();
-        let mut film = match render_while(self.job, threads, advanced) {
-            Ok(film) => film,
-            Err(RenderError::Cancelled) => return Ok(None),
-            Err(error) => return Err(error.to_string()),
-        };
-        film.set_display(self.display);
-        let trace = || Alpha::trace(&camera, &*intersector, &plan, threads, &state.alpha);
-        let alpha = match is_transparent.then(trace).transpose() {
-            Ok(alpha) => alpha,
-            Err(TraceError::Cancelled) => return Ok(None),
-            Err(error) => return Err(error.to_string()),
-        };
-        let output = Output::create(&self.path).map_err(|error| error.to_string())?;
-        match self.format {
-            Format::Exr => output.write_exr(&film, None, alpha.as_ref()),
-            Format::Png => {
-                let pixels = match &alpha {
-                    Some(alpha) => alpha.shown(&film),
-                    None => film.pixels().to_vec(),
-                };
-                output.write_png(film.size(), &with_lines(pixels, self.overlay)?)
-            }
-        }
-        .map_err(|error| error.to_string())?;
-        Ok(Some(self.path))
-    }
-}
-
-fn with_lines(
-    mut pixels: Vec<[u8; 4]>,
-    overlay: Option<(OverlayInput, Overlays, wgpu::Device, wgpu::Queue)>,
-) -> Result<Vec<[u8; 4]>, String> {
-    if let Some((input, overlays, device, queue)) = overlay {
-        offscreen::draw_onto(&mut pixels, (&device, &queue), &input, &overlays)
-            .map_err(|error| error.to_string())?;
-    }
-    Ok(pixels)
-}
-
 impl App {
     /// Shows the dialog, or closes it.
     pub(crate) fn toggle_picture_dialog(&mut self) {
@@ -241,6 +155,14 @@ impl App {
     fn render_picture(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
         let dialog = &self.pictures.dialog;
         let (size, samples, format) = (dialog.size, dialog.samples, dialog.format);
+        let limit = self.open.load_options.max_memory;
+        let fits = match format {
+            Format::Png => Ok(()),
+            Format::Exr => require_picture_memory(size, limit),
+        };
+        if let Err(message) = fits {
+            return self.error(message);
+        }
         let has_lines = dialog.has_overlay && format == Format::Png;
         let is_transparent = dialog.is_transparent && !self.compares_kernels();
         let mut request = self.wanted(ctx, size);
@@ -254,7 +176,12 @@ impl App {
         let overlay = frame.wgpu_render_state().filter(|_| has_lines).map(|gpu| {
             let input = self.overlay_input(&scene, camera, scale);
             let overlays = self.seen.settings.overlays.clone();
-            (input, overlays, gpu.device.clone(), gpu.queue.clone())
+            OrderedOverlay {
+                input,
+                overlays,
+                device: gpu.device.clone(),
+                queue: gpu.queue.clone(),
+            }
         });
         let extension = match format {
             Format::Png => "png",
@@ -271,11 +198,18 @@ impl App {
             overlay,
             format,
             path: free_path(open.unwrap_or(Path::new("hitscope")), extension),
+            strip_bytes: self.pictures.strip_bytes,
         };
-        let state = Arc::new(RenderingState::default());
+        let state = Arc::new(OrderState::default());
         let shared = Arc::clone(&state);
         let task = Task::spawn("render", ctx, move || order.carry_out(&shared));
         self.pictures.dialog.rendering = Some(Rendering { state, task });
+    }
+
+    /// The part of the dialog's picture that is traced, from 0 to 1; `None` if none is being rendered.
+    pub fn rendered_part(&self) -> Option<f32> {
+        let rendering = self.pictures.dialog.rendering.as_ref()?;
+        Some(rendering.state.part())
     }
 
     /// Tells when the picture is saved.

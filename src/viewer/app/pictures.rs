@@ -21,11 +21,22 @@ enum Taken {
 }
 
 /// The picture that is being taken, and the dialog.
-#[derive(Default)]
 pub(super) struct Pictures {
     task: Option<Task<Result<Taken, String>>>,
     /// The dialog for pictures of any size.
     pub dialog: PictureDialog,
+    /// Memory of the strips in which the dialog's pictures are rendered, in bytes.
+    pub strip_bytes: u64,
+}
+
+impl Pictures {
+    pub fn new(strip_bytes: u64) -> Self {
+        Self {
+            task: None,
+            dialog: PictureDialog::default(),
+            strip_bytes,
+        }
+    }
 }
 
 impl App {

@@ -17,7 +17,8 @@ impl App {
             settings: self.seen.settings.clone(),
             comparison: self.seen.comparison.clone(),
             parts: self.seen.parts.choice().clone(),
-            picks: self.picked_pixel().into_iter().collect(),
+            picks: self.listed_picks().collect(),
+            snapping: self.snapping(),
         }
     }
 
@@ -26,29 +27,37 @@ impl App {
         Viewpoint::of(&self.seen.turntable, origin)
     }
 
-    /// The pixel that is picked, or will be once it is inspected.
-    fn picked_pixel(&self) -> Option<PickedPixel> {
-        let origin = self.open.document.loaded.scene.mesh().origin();
-        let pick = self.picked.pick.as_ref();
-        let of_pick = |pick: &Pick| {
-            let pixel = pick.inspection.pixel.into();
-            PickedPixel::new(&pick.camera, pixel, pick.crossing(), origin)
-        };
-        let picked = match &self.picked.picking {
-            Some(picking) => {
-                let crossing = picking.crossing(pick);
-                let (camera, pixel) = (&picking.camera, picking.pixel);
-                Some(PickedPixel::new(camera, pixel, crossing, origin))
+    /// The list of picks.
+    fn listed_picks(&self) -> impl ExactSizeIterator<Item = PickedPixel> {
+        let origin = self.open.document.origin();
+        let picks = &self.picked.inspecting.picks;
+        picks.list.iter().map(move |pick| {
+            let listed = PickedPixel::new(pick, origin);
+            if picks.selected == Some(pick.number) {
+                listed.selected(self.chosen_crossing())
+            } else {
+                listed
             }
-            None => pick.map(of_pick),
-        };
-        picked.map(|picked| picked.on(self.picked.side))
+        })
+    }
+
+    /// The crossing that is marked instead of the hit, or will be once the pick is inspected.
+    fn chosen_crossing(&self) -> Option<usize> {
+        let pick = self.picked.pick.as_ref();
+        match &self.picked.picking {
+            Some(picking) => picking.crossing(pick),
+            None => pick.and_then(Pick::crossing),
+        }
+    }
+
+    fn lists_picks(&self, picks: &[PickedPixel]) -> bool {
+        let listed = self.listed_picks();
+        listed.len() == picks.len() && listed.zip(picks).all(|(pick, other)| pick == *other)
     }
 
     /// Shows the document as it was seen.
     fn restore(&mut self, sight: &Sight, ctx: &egui::Context) {
         let scene = &self.open.document.loaded.scene;
-        let origin = scene.mesh().origin();
         self.seen.turntable = sight.camera.turntable(scene);
         self.seen.settings = sight.settings.clone();
         self.seen.comparison = sight.comparison.clone();
@@ -56,16 +65,41 @@ impl App {
             self.seen.parts.choose(sight.parts.clone());
         }
         (self.seen.is_unframed, self.seen.is_rotating) = (false, false);
-        let wanted = sight.picks.first();
-        if self.picked_pixel().as_ref() != wanted {
-            self.picked.clear_pick();
-            let camera = wanted.and_then(|pick| Some((pick, pick.camera(origin).ok()?)));
-            if let Some((pick, camera)) = camera {
-                self.picked.side = pick.side;
-                self.start_picking(camera, pick.pixel(), pick.crossing, ctx);
-            }
-        }
+        self.picked.inspecting.picks.snapping = sight.snapping;
+        self.restore_picks(&sight.picks, ctx);
         ctx.request_repaint();
+    }
+
+    /// Replaces the list of picks, and inspects the one that is selected.
+    fn restore_picks(&mut self, wanted: &[PickedPixel], ctx: &egui::Context) {
+        if self.lists_picks(wanted) {
+            return;
+        }
+        let inspected = self.listed_picks().find(|pick| pick.is_selected);
+        let origin = self.open.document.origin();
+        let usable = |pick: &PickedPixel| Some((pick.clone(), pick.in_scene(origin).ok()?));
+        let (plain, picks): (Vec<_>, Vec<_>) = wanted.iter().filter_map(usable).unzip();
+        self.picked.inspecting.picks.restore(picks);
+        let selected = plain.iter().position(|pick| pick.is_selected);
+        let selected = selected.map(|index| {
+            let listed = &self.picked.inspecting.picks.list[index];
+            (&plain[index], listed.number, listed.camera)
+        });
+        let is_same = match (&inspected, selected) {
+            (Some(old), Some((new, ..))) => old.is_inspected_as(new),
+            (old, new) => old.is_none() && new.is_none(),
+        };
+        if !is_same {
+            self.picked.clear_pick();
+        }
+        let Some((plain, number, camera)) = selected else {
+            return;
+        };
+        self.picked.inspecting.picks.selected = Some(number);
+        if !is_same {
+            self.picked.side = plain.side;
+            self.start_picking(camera, plain.pixel(), plain.crossing, ctx);
+        }
     }
 
     /// Notes a step of undo if what is seen has changed. Called at the end of each frame.
@@ -82,8 +116,10 @@ impl App {
         });
         let gesture = if is_pressed || self.seen.is_rotating {
             Some(Gesture::Motion)
+        } else if is_wheel {
+            Some(Gesture::Wheel)
         } else {
-            is_wheel.then_some(Gesture::Wheel)
+            ctx.text_edit_focused().then_some(Gesture::Typing)
         };
         // Most frames change nothing; comparing is cheaper than copying.
         let is_same = self.history.now().is_some_and(|now| {
@@ -91,7 +127,8 @@ impl App {
                 && now.comparison == self.seen.comparison
                 && now.parts == *self.seen.parts.choice()
                 && now.camera == self.viewpoint()
-                && now.picks.first() == self.picked_pixel().as_ref()
+                && now.snapping == self.snapping()
+                && self.lists_picks(&now.picks)
         });
         if is_same {
             self.history.rest(gesture, secs);
@@ -158,7 +195,7 @@ impl App {
         let session = match session {
             Ok(session) => session,
             Err(message) => {
-                if let Some(screenshot) = &self.screenshot {
+                if let Some(screenshot) = &mut self.screenshot {
                     screenshot.fail(ctx, message.clone());
                 }
                 self.error(message);

@@ -12,6 +12,7 @@ use hitscope_core::camera::Turntable;
 use hitscope_core::{Film, Scene};
 use hitscope_lab::inspection::{Inspection, PathReport};
 use std::sync::Arc;
+use std::time::Duration;
 
 impl App {
     /// The film of the picture being traced.
@@ -115,6 +116,11 @@ impl App {
             .notice
             .as_ref()
             .map(|notice| notice.text.as_str())
+    }
+
+    /// The time from the start of the program to the first traced picture on the screen; `None` before it.
+    pub fn first_picture(&self) -> Option<Duration> {
+        self.shown.first_picture.after()
     }
 
     /// The picture's place in the window, in points.

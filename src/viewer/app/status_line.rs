@@ -1,6 +1,7 @@
 //! The status line.
 
 use super::App;
+use crate::first_picture::shown_time;
 use crate::numbers::significant;
 use crate::panels::view::shown_kernel;
 use crate::tracer::{Status, StopReason};
@@ -16,11 +17,13 @@ impl App {
             egui::Frame::side_top_panel(ui.style()).inner_margin(egui::Margin::symmetric(6, 2));
         egui::Panel::bottom("status").frame(frame).show(ui, |ui| {
             let text = RichText::new(parts.join("  ·  ")).monospace().size(11.0);
-            ui.add(egui::Label::new(text).truncate());
+            let label = egui::Label::new(text).truncate();
+            ui.add(label.show_tooltip_when_elided(false))
+                .on_hover_text(parts.join("\n"));
         });
     }
 
-    /// The parts of the status line, most important first: a narrow window truncates it.
+    /// The parts of the status line, most important first: a narrow window truncates it. Its tooltip lists them all.
     fn status_parts(&self) -> Vec<String> {
         let status = self.traced.tracer.status();
         let scene = &self.open.document.loaded.scene;
@@ -55,6 +58,7 @@ impl App {
                 parts.push(format!("{name} {median:.0} ms, p99 {p99:.0} ms"));
             }
         }
+        parts.extend(self.first_picture().map(shown_time));
         if self.traced.tracer.non_finite() > 0 {
             let count = self.traced.tracer.non_finite() as usize;
             parts.insert(2, format!("{} not finite", counted(count, "sample")));

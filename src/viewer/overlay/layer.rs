@@ -16,6 +16,7 @@ use crate::gpu::view::ViewUniform;
 use crate::task::TaskPanicked;
 use eframe::egui_wgpu::RenderState;
 use glam::UVec2;
+use hitscope_core::plan::PixelRect;
 use hitscope_core::{Camera, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -252,7 +253,11 @@ impl OverlayLayer {
         }
         let (shapes, shared, camera) = (self.shapes.clone(), Arc::clone(scene), *camera);
         let trace = move |device: &wgpu::Device, queue: &wgpu::Queue| {
-            let pixels = shapes.trace(&shared, &camera, &view);
+            let whole = PixelRect {
+                min: UVec2::ZERO,
+                max: camera.resolution(),
+            };
+            let pixels = shapes.trace(&shared, &camera, &view, whole);
             TracedLayer::new(device, queue, view.size(), &pixels)
         };
         self.traced.get(view, &self.overlay, ctx, trace).map(Some)

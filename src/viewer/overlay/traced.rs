@@ -4,13 +4,14 @@ use crate::gpu::traced::TracedPixel;
 use crate::gpu::view::ViewUniform;
 use glam::{DVec3, UVec2, Vec2};
 use hitscope_core::kernel::{KernelTable as _, Tier};
+use hitscope_core::plan::PixelRect;
 use hitscope_core::shape::Triangle;
 use hitscope_core::{Camera, Intersector, Ray, Scene};
 use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 
 /// Within this many pixels of its border a surface doesn't hide lines behind it: half a line's width, half a pixel of soft
-/// edge, and a margin, so that it doesn't hide the lines on it.
+/// edge, and a margin, so that it doesn't hide the lines on it. Outlines depend on as many pixels around them.
 const REACH_PX: usize = 2;
 
 /// A surface hides lines that are farther than it by more than this many pixels, so that it doesn't hide the lines on it,
@@ -48,35 +49,55 @@ impl VisibleSurface {
 }
 
 impl Shapes {
-    /// Traces one ray through the centre of each pixel. Takes as long as a picture of one sample per pixel.
-    pub fn trace(&self, scene: &Scene, camera: &Camera, view: &ViewUniform) -> Vec<TracedPixel> {
+    /// Traces one ray through the centre of each pixel of a part of the picture, row by row from the top. Takes as long as a
+    /// picture of one sample per pixel. `view` is that of the whole picture.
+    pub fn trace(
+        &self,
+        scene: &Scene,
+        camera: &Camera,
+        view: &ViewUniform,
+        part: PixelRect,
+    ) -> Vec<TracedPixel> {
         let whole = self.0.get_or_init(|| {
             let shapes = scene.without_triangles().with_clip(None);
             // The lines' width exceeds the error of t, and exact arithmetic would take several times as long.
             Arc::from(shapes.intersector(Triangle::kernel_of(Tier::Watertight)))
         });
         let intersector = scene.clipped(Arc::clone(whole));
-        let size = camera.resolution();
+        // A pixel depends on those around it.
+        let margin = UVec2::splat(REACH_PX as u32);
+        let min = part.min.saturating_sub(margin);
+        let size = (part.max + margin).min(camera.resolution()) - min;
         let mut visible = vec![VisibleSurface::NONE; (size.x * size.y) as usize];
-        let rows = visible.par_chunks_mut(size.x as usize).enumerate();
-        rows.for_each(|(y, row)| trace_row(&*intersector, camera, view, y as u32, row));
+        let rows = visible.par_chunks_mut(size.x as usize).zip(0..size.y);
+        rows.for_each(|(row, y)| {
+            trace_row(&*intersector, camera, view, min + UVec2::new(0, y), row);
+        });
         let hides = farthest_around(&visible, size);
-        let outline = |(index, hides)| TracedPixel {
-            hides,
+        let width = size.x as usize;
+        let [rows, columns] = [1, 0].map(|axis| {
+            let start = part.min[axis] - min[axis];
+            let end = part.max[axis] - min[axis];
+            start as usize..end as usize
+        });
+        let indices = rows.flat_map(|y| columns.clone().map(move |x| y * width + x));
+        let pixel = |index: usize| TracedPixel {
+            hides: hides[index],
             outline: outline(&visible, size, index),
         };
-        hides.into_iter().enumerate().map(outline).collect()
+        indices.map(pixel).collect()
     }
 }
 
+/// Traces a part of a row from its first pixel.
 fn trace_row(
     intersector: &dyn Intersector,
     camera: &Camera,
     view: &ViewUniform,
-    y: u32,
+    first: UVec2,
     row: &mut [VisibleSurface],
 ) {
-    let ray = |x: u32| camera.ray(UVec2::new(x, y), Vec2::splat(0.5));
+    let ray = |x: u32| camera.ray(first + UVec2::new(x, 0), Vec2::splat(0.5));
     let rays: Vec<Ray> = (0..row.len() as u32).map(ray).collect();
     let mut hits = vec![None; rays.len()];
     intersector.coherent_hits(&rays, &mut hits);

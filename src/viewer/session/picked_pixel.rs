@@ -1,14 +1,31 @@
-//! A picked pixel as plain data.
+//! A pick of the list as plain data.
 
 use crate::comparison::Side;
+use crate::picks;
 use glam::{DMat3, DVec3, UVec2};
 use hitscope_core::Camera;
 use hitscope_core::camera::Projection;
 use serde::{Deserialize, Serialize};
+use std::ops::Not;
+
+/// The largest number of a pick in a session.
+const MAX_NUMBER: u32 = 1_000_000_000;
 
 /// A picked pixel, with the camera of the picture that was clicked.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PickedPixel {
+    /// Its number in the list; 0 if it has none yet.
+    #[serde(default)]
+    pub number: u32,
+    /// The name that the user gave it.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// Whether it stays when another pixel is picked.
+    #[serde(default, skip_serializing_if = "Not::not")]
+    pub is_pinned: bool,
+    /// Whether it is the one that is inspected. Sessions with a single pick may lack this.
+    #[serde(default = "yes")]
+    pub is_selected: bool,
     /// A point near the scene, in the file's coordinates.
     origin: [f64; 3],
     /// Position of the camera, relative to `origin`.
@@ -36,10 +53,19 @@ enum PickProjection {
     Orthographic { height: f64 },
 }
 
+fn yes() -> bool {
+    true
+}
+
 impl PickedPixel {
-    /// A pixel of side A, by the camera of its picture, in a scene with this origin.
-    pub fn new(camera: &Camera, pixel: UVec2, crossing: Option<usize>, origin: DVec3) -> Self {
+    /// A pick that isn't selected, in a scene with this origin.
+    pub fn new(pick: &picks::PickedPixel, origin: DVec3) -> Self {
+        let camera = &pick.camera;
         Self {
+            number: pick.number,
+            name: pick.name.clone(),
+            is_pinned: pick.is_pinned,
+            is_selected: false,
             origin: origin.to_array(),
             eye: camera.exact_eye().to_array(),
             right: camera.right().to_array(),
@@ -52,16 +78,46 @@ impl PickedPixel {
                 Projection::Orthographic { height } => PickProjection::Orthographic { height },
             },
             size: camera.resolution().to_array(),
-            pixel: pixel.to_array(),
-            crossing,
-            side: Side::A,
+            pixel: pick.pixel.to_array(),
+            crossing: None,
+            side: pick.side,
         }
     }
 
-    /// The same pixel on a side of a comparison.
+    /// The same pick, selected, with the crossing that is marked instead of the hit.
     #[must_use]
-    pub fn on(self, side: Side) -> Self {
-        Self { side, ..self }
+    pub fn selected(self, crossing: Option<usize>) -> Self {
+        Self {
+            is_selected: true,
+            crossing,
+            ..self
+        }
+    }
+
+    /// The pick in a scene with this origin.
+    ///
+    /// # Errors
+    /// Why there is no such camera.
+    pub fn in_scene(&self, origin: DVec3) -> Result<picks::PickedPixel, String> {
+        Ok(picks::PickedPixel {
+            number: self.number,
+            name: self.name.clone(),
+            is_pinned: self.is_pinned,
+            side: self.side,
+            camera: self.camera(origin)?,
+            pixel: self.pixel(),
+        })
+    }
+
+    /// Whether both are inspected in the same way: they may differ in number, name and pin.
+    pub fn is_inspected_as(&self, other: &Self) -> bool {
+        let unlisted = |pick: &Self| Self {
+            number: 0,
+            name: String::new(),
+            is_pinned: false,
+            ..pick.clone()
+        };
+        unlisted(self) == unlisted(other)
     }
 
     /// The pixel.
@@ -91,6 +147,9 @@ impl PickedPixel {
         self.camera(DVec3::from_array(self.origin))?;
         if self.pixel().cmpge(self.size.into()).any() {
             return Err("a pick: the pixel is outside the picture".to_owned());
+        }
+        if self.number > MAX_NUMBER {
+            return Err(format!("a pick: its number is larger than {MAX_NUMBER}"));
         }
         Ok(())
     }

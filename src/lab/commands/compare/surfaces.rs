@@ -1,7 +1,7 @@
 //! The comparison of two surfaces.
 
 use super::CompareArgs;
-use crate::commands::legend;
+use crate::commands::legend::Legend;
 use crate::commands::picture::picture_bytes;
 use crate::commands::{CommandError, DARK_BACKGROUND};
 use crate::json;
@@ -154,7 +154,9 @@ impl CompareArgs {
         };
         let pixels = picture.trace(&|part| meter.set(part));
         Ok(if options.legend {
-            legend::beside(&pixels, size, &scale)
+            let legend = Legend::new(size, &scale);
+            let size = UVec2::new(legend.width_together(), size.y);
+            (size, legend.beside(&pixels, 0))
         } else {
             (size, pixels)
         })

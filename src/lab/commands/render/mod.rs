@@ -22,12 +22,15 @@ pub use format::{PictureFormat, parse_png};
 use super::aim::AimArg;
 use super::light::refuse_without_effect;
 use super::output::{is_same_file, is_stream};
-use super::{CommandError, Output, PictureArgs, PreparedScene, Rendered};
+use super::picture::NoiseSum;
+use super::{CommandError, Output, PictureArgs, PreparedScene, PreparedView, Rendered};
 use crate::progress::{Meter, ProgressBar};
 use clap::Args;
 use format::parse_exr;
+use glam::UVec2;
 use hitscope_core::integrator::{Comparison, Integrator, Setting};
 use hitscope_core::obj::shown;
+use hitscope_core::render::STRIP_BYTES;
 use outputs::{OutputNames, Outputs};
 use shots::Shots;
 use std::io::Write;
@@ -66,7 +69,8 @@ which is counted from 0.
 A name ending in .exr gives linear radiance in f32 with the layers albedo,
 normal, Z, id, sampleCount and variance, for denoisers and compositing;
 exposure and tone curve don't change it. Output files appear under their
-names once they are complete. A picture takes 73 bytes of memory per pixel.";
+names once they are complete. PNG pictures are rendered in strips of 256 MB of
+memory; others, and those with --depth-map or --ids, take 89 bytes per pixel.";
 
 /// Render pictures to PNG or OpenEXR files
 #[derive(Args, Clone, Debug)]
@@ -119,6 +123,9 @@ pub struct RenderArgs {
     /// integers; 4294967295 where there is none), with the names of groups and materials
     #[arg(long, value_name = "OUT.exr", value_parser = parse_exr)]
     pub ids: Option<PathBuf>,
+    /// Memory of the strips in which PNG pictures are rendered, in bytes. Not an option: pictures don't depend on it.
+    #[arg(skip = STRIP_BYTES)]
+    pub strip_bytes: u64,
 }
 
 /// Options that a file of cameras replaces.
@@ -133,7 +140,7 @@ const CAMERA_OPTIONS: [&str; 8] = [
     "turntable",
 ];
 
-/// Draws overlays over the pixels of a picture, which are sRGB with alpha.
+/// Draws overlays over the pixels of a picture or a strip, which are sRGB with alpha. Strips come from the top.
 pub type OverlayPen<'a> =
     Box<dyn FnMut(&mut [[u8; 4]], &Rendered) -> Result<(), CommandError> + 'a>;
 
@@ -174,9 +181,10 @@ impl RenderArgs {
                     1 => "Rendering".to_owned(),
                     _ => format!("Rendering {number} of {all}"),
                 });
-                let rendered = picture.trace(view, &meter)?;
-                self.write(&rendered, output, pen.as_mut())?;
-                self.print_figures(&rendered, (output, shots.count()), &mut figures)?;
+                let view = picture.view(view)?;
+                let noise = self.write(&view, output, pen.as_mut(), &meter)?;
+                let names = (output, shots.count());
+                self.print_figures((&view, &noise), names, &mut figures)?;
             }
             outputs.write_surfaces(&picture)?;
         }
@@ -231,7 +239,11 @@ impl RenderArgs {
             self.check_legend(&views)?;
             self.check_transparency(&views)?;
         }
-        self.picture.check()?;
+        self.picture.check_options()?;
+        // The size of a scene file's picture may be known only later.
+        if let Some(size) = self.picture.camera.known_size(&self.picture.scene.file) {
+            self.check_size(size)?;
+        }
         Ok(shots)
     }
 
@@ -262,48 +274,91 @@ impl RenderArgs {
         Ok(scene)
     }
 
+    /// Traces a picture, in strips if it is a PNG file, and writes it. Returns its noise.
     fn write(
         &self,
-        rendered: &Rendered,
+        view: &PreparedView<'_>,
         output: &Output,
-        pen: Option<&mut OverlayPen<'_>>,
-    ) -> Result<(), CommandError> {
-        let film = &rendered.film;
+        mut pen: Option<&mut OverlayPen<'_>>,
+        meter: &Meter,
+    ) -> Result<NoiseSum, CommandError> {
+        let mut noise = NoiseSum::default();
+        if self.needs_whole()? {
+            view.require_whole()?;
+        }
         if self.format()? == PictureFormat::Exr {
-            return output.write_exr(film, rendered.guides.as_deref(), rendered.alpha.as_ref());
+            let rendered = view.trace(0..view.size().y, meter)?;
+            noise.add(&rendered);
+            let (guides, alpha) = (rendered.guides.as_deref(), rendered.alpha.as_ref());
+            output.write_exr(&rendered.film, guides, alpha)?;
+            return Ok(noise);
         }
-        let mut pixels = rendered.pixels();
-        if let Some(pen) = pen {
-            pen(&mut pixels, rendered)?;
+        let legend = self.legend.then(|| view.legend()).flatten();
+        let mut size = view.size();
+        if let Some(legend) = &legend {
+            size.x = legend.width_together();
         }
-        let legend = self.legend.then(|| rendered.with_legend(&pixels)).flatten();
-        let (size, pixels) = legend.unwrap_or((film.size(), pixels));
-        output.write_png(size, &pixels)
+        let strips = view.strips(self.strip_bytes)?;
+        output.write_png_rows(size, |png| {
+            for rows in strips.rows() {
+                let rendered = view.trace(rows, meter)?;
+                if self.noise {
+                    noise.add(&rendered);
+                }
+                let mut pixels = rendered.pixels();
+                if let Some(pen) = pen.as_deref_mut() {
+                    pen(&mut pixels, &rendered)?;
+                }
+                match &legend {
+                    Some(legend) => png.write(&legend.beside(&pixels, rendered.rows.start))?,
+                    None => png.write(&pixels)?,
+                }
+            }
+            Ok::<(), CommandError>(())
+        })?;
+        Ok(noise)
     }
 
     /// Prints the noise and the scale of a picture if they are asked for; of one of several pictures with its name.
     fn print_figures(
         &self,
-        rendered: &Rendered,
+        (view, noise): (&PreparedView<'_>, &NoiseSum),
         (output, camera_count): (&Output, usize),
         out: &mut dyn Write,
     ) -> Result<(), CommandError> {
         let name = if camera_count > 1 {
             format!("{}: ", shown(output.path()))
         } else if self.picture.view.view.len() > 1 {
-            format!("{}: ", rendered.view.name)
+            format!("{}: ", view.name())
         } else {
             String::new()
         };
         if self.noise {
-            writeln!(out, "{name}{}", rendered.noise())?;
+            writeln!(out, "{name}{}", noise.noise())?;
         }
         if self.legend
-            && let Some(scale) = &rendered.scale
+            && let Some(scale) = view.scale()
         {
             writeln!(out, "{name}{scale}")?;
         }
         Ok(())
+    }
+
+    /// Refuses a size whose picture exceeds the memory limit on its own.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    fn check_size(&self, size: UVec2) -> Result<(), CommandError> {
+        if self.needs_whole()? {
+            return self.picture.check_size(size);
+        }
+        Ok(())
+    }
+
+    /// Whether some output is made from the whole picture, not from strips of it.
+    fn needs_whole(&self) -> Result<bool, CommandError> {
+        let is_exr = self.format()? == PictureFormat::Exr;
+        Ok(is_exr || self.depth_map.is_some() || self.ids.is_some())
     }
 
     /// The format of the pictures.

@@ -42,7 +42,7 @@ impl<'a> Shots<'a> {
         };
         if let Source::List(cameras) = &source {
             let mut sizes = cameras.iter().filter_map(|listed| listed.camera.size);
-            sizes.try_for_each(|size| args.picture.check_size(size))?;
+            sizes.try_for_each(|size| args.check_size(size))?;
         }
         let shots = Self { args, source };
         shots.check_names()?;

@@ -160,12 +160,32 @@ impl Picks {
     /// Removes the picks that aren't pinned.
     pub fn clear_unpinned(&mut self) {
         self.list.retain(|pick| pick.is_pinned);
-        self.selected = None;
+    }
+
+    /// Replaces the list. Picks whose number is 0 or taken get the next one.
+    pub fn restore(&mut self, picks: impl IntoIterator<Item = PickedPixel>) {
+        self.clear();
+        let mut unnumbered = Vec::new();
+        for pick in picks {
+            let is_taken = self.list.iter().any(|other| other.number == pick.number);
+            if pick.number == 0 || is_taken {
+                unnumbered.push(self.list.len());
+            }
+            self.last_number = self.last_number.max(pick.number);
+            self.list.push(pick);
+        }
+        for index in unnumbered {
+            self.last_number += 1;
+            self.list[index].number = self.last_number;
+        }
+        // The hits of the old list have the same numbers.
+        self.found = None;
     }
 
     /// Removes all picks; the next one has the number 1.
     pub fn clear(&mut self) {
         (self.list, self.selected, self.last_number) = (Vec::new(), None, 0);
+        self.found = None;
     }
 
     /// Moves the cameras to the place where they see the same in a scene whose origin has moved.

@@ -164,7 +164,6 @@ impl App {
             PicksChange::Remove(number) => {
                 picks.list.retain(|pick| pick.number != number);
                 if picks.selected == Some(number) {
-                    picks.selected = None;
                     self.picked.clear_pick();
                 }
             }
