@@ -16,7 +16,7 @@ use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy, default_spawn_policy, sp
 use hitscope_core::terminator::{TerminatorRepair, default_terminator_repair, terminator_repair};
 use hitscope_core::tone::{Display, TONE_CURVES, ToneCurve, tone_curve};
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Where light from far away comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -81,6 +81,9 @@ pub struct Settings {
     pub terminator: String,
     /// Where light from far away comes from.
     pub environment: EnvironmentSource,
+    /// Whether the open file has an environment of its own, which is used instead.
+    #[serde(skip)]
+    pub has_file_environment: bool,
     /// The picture of [`EnvironmentSource::File`].
     pub environment_file: Option<PathBuf>,
     /// sRGB of [`EnvironmentSource::Colour`].
@@ -136,6 +139,7 @@ impl Default for Settings {
             depth_limit: 8,
             terminator: default_terminator_repair().name.to_owned(),
             environment: EnvironmentSource::Scene,
+            has_file_environment: false,
             environment_file: None,
             environment_colour: [255; 3],
             environment_brightness: 1.0,
@@ -263,7 +267,31 @@ impl Settings {
     /// Whether the light from far away is a picture, which can be rotated.
     pub fn has_map(&self) -> bool {
         use EnvironmentSource::{File, Studio};
-        self.shows_light() && matches!(self.environment, Studio | File)
+        self.shows_light() && matches!(self.environment(), Studio | File)
+    }
+
+    /// Where light from far away comes from.
+    pub fn environment(&self) -> EnvironmentSource {
+        if self.has_file_environment {
+            EnvironmentSource::Scene
+        } else {
+            self.environment
+        }
+    }
+
+    /// Uses an environment and keeps it between runs.
+    pub fn keep_environment(&mut self, source: EnvironmentSource) {
+        self.has_file_environment = false;
+        self.environment = source;
+    }
+
+    /// Uses the picture of an environment in a file, unrotated if it is another one than before, and keeps it between runs.
+    pub fn keep_environment_file(&mut self, path: &Path) {
+        if self.environment_file.as_deref() != Some(path) {
+            self.environment_degrees = 0.0;
+        }
+        self.environment_file = Some(path.to_owned());
+        self.keep_environment(EnvironmentSource::File);
     }
 
     /// Whether exposure and tone curve change the picture. The view *Shaded* is shown as it is, which is faster.

@@ -44,6 +44,35 @@ fn an_environment_replaces_that_of_the_file() {
 }
 
 #[test]
+fn the_sky_of_an_environment_is_above_the_scene_if_the_z_axis_points_up() {
+    let z_up = DARK
+        .replace("0,0,10", "0,-10,0")
+        .replace("up=\"0,1,0\"", "up=\"0,0,1\"");
+    let folder = folder(&z_up);
+    // White above and black below.
+    let mut sky = b"#?RADIANCE\n\n-Y 2 +X 1\n".to_vec();
+    sky.extend([128, 128, 128, 129, 0, 0, 0, 0]);
+    std::fs::write(folder.path("sky.hdr"), sky).expect("written");
+    let corners = |options: &str| {
+        let options = format!("--view direct --environment @sky.hdr {options}");
+        let film = rendered(&folder, &options).film;
+        [0, 15].map(|y| film.radiance(UVec2::new(0, y)).expect("traced").x)
+    };
+    // The horizon is grey. Half of the angle of view, 20°, is a ninth of the way from pole to pole.
+    let [above, below] = corners("");
+    assert!(above - below > 0.1, "{above} {below}");
+    // Seen from below, the zenith is in the middle of the picture.
+    let [above, below] = corners("--environment-up y");
+    assert!((above - below).abs() < 0.02, "{above} {below}");
+    // The rotation is about the vertical axis, along which this sky changes.
+    let [above, below] = corners("--rotation 90");
+    assert!(above - below > 0.1, "{above} {below}");
+    let args = folder.args::<RenderArgs>("@scene.xml -o @out.png --view path --environment-up z");
+    let error = args.trace().err().expect("refused").to_string();
+    assert!(error.contains("--environment FILE"), "{error}");
+}
+
+#[test]
 fn a_scene_without_a_light_is_lit_by_white_light() {
     for view in ["direct", "path"] {
         let rendered = rendered(&folder(DARK), &format!("--view {view}"));

@@ -1,7 +1,7 @@
 //! Tests of views that need lights: their options, noise and limits.
 
 use crate::app::drop_file;
-use crate::harness::{Window, app, app_with, bare_with, in_picture, pointer, wait};
+use crate::harness::{Window, app, app_with, bare_with, in_picture, pointer, settle, wait, write};
 use egui::{Event, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::App;
@@ -185,7 +185,7 @@ fn a_dropped_environment_lights_the_scene_and_does_not_replace_it() {
         return;
     };
     wait(&mut window, "the picture", App::is_settled);
-    let name = window.state().document().name().to_owned();
+    let document = window.state().document().name().to_owned();
     let white = window.state().film().pixels().to_vec();
     let sky = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/studio.hdr");
     drop_file(&mut window, sky.clone());
@@ -195,14 +195,85 @@ fn a_dropped_environment_lights_the_scene_and_does_not_replace_it() {
     let app = window.state();
     assert_eq!(app.notice(), None);
     assert_eq!(app.settings().environment, EnvironmentSource::File);
-    assert_eq!(app.settings().environment_file, Some(sky));
-    // One that can't be read is reported, and the light is that of the scene again.
-    drop_file(&mut window, PathBuf::from("none.HDR"));
+    assert_eq!(app.settings().environment_file.as_ref(), Some(&sky));
+    // One that can't be read is reported, and the light stays as it is.
+    let lit = app.film().pixels().to_vec();
+    let folder = tempfile::tempdir().expect("a folder");
+    let broken = folder.path().join("broken.hdr");
+    std::fs::write(&broken, b"#?RADIANCE\n\n-Y 64 +X 64\n").expect("written");
+    for (path, name) in [
+        (PathBuf::from("none.HDR"), "none.HDR"),
+        (broken, "broken.hdr"),
+    ] {
+        drop_file(&mut window, path);
+        wait(&mut window, "the error", |app| {
+            app.notice().is_some_and(|text| text.contains(name))
+        });
+        wait(&mut window, "the picture", App::is_settled);
+        let app = window.state();
+        assert_eq!(app.settings().environment, EnvironmentSource::File);
+        assert_eq!(app.settings().environment_file.as_ref(), Some(&sky));
+        assert!(app.film().pixels() == lit);
+        assert_eq!(app.document().name(), document);
+    }
+}
+
+#[test]
+fn a_kept_environment_that_cannot_be_read_gives_way_to_that_of_the_scene() {
+    let settings = Settings {
+        view: "direct".to_owned(),
+        environment: EnvironmentSource::File,
+        environment_file: Some("none.hdr".into()),
+        ..ambient_occlusion(1)
+    };
+    let Some(mut window) = bare_with(settings) else {
+        return;
+    };
     wait(&mut window, "the error", |app| app.notice().is_some());
-    let app = window.state();
-    assert!(app.notice().is_some_and(|text| text.contains("none.HDR")));
-    assert_eq!(app.settings().environment, EnvironmentSource::Scene);
-    assert_eq!(app.document().name(), name);
+    let settings = window.state().settings();
+    assert_eq!(settings.environment(), EnvironmentSource::Scene);
+    assert_eq!(settings.environment_file, None);
+}
+
+/// A sphere under a constant environment, or without lights.
+fn sphere(folder: &tempfile::TempDir, name: &str, lights: &str) -> PathBuf {
+    let text = format!("<scene version='3.0.0'><shape type='sphere'/>{lights}</scene>");
+    write(folder, name, &text)
+}
+
+#[test]
+fn a_scene_with_an_environment_of_its_own_is_opened_in_it_and_others_in_the_chosen_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let own = sphere(&folder, "own.xml", "<emitter type='constant'/>");
+    let dark = sphere(&folder, "dark.xml", "<emitter type='point'/>");
+    let settings = Settings {
+        view: "direct".to_owned(),
+        environment: EnvironmentSource::Studio,
+        ..ambient_occlusion(1)
+    };
+    let Some(mut window) = bare_with(settings) else {
+        return;
+    };
+    let chosen = |window: &Window| window.state().settings().environment();
+    drop_file(&mut window, own);
+    let told = "This scene has an environment of its own, which is used instead of the studio";
+    wait(&mut window, "the toast", |app| app.toasts() == [told]);
+    settle(&mut window, "own.xml");
+    assert_eq!(chosen(&window), EnvironmentSource::Scene);
+    drop_file(&mut window, dark);
+    settle(&mut window, "dark.xml");
+    assert_eq!(chosen(&window), EnvironmentSource::Studio);
+}
+
+#[test]
+fn another_picture_of_an_environment_is_not_rotated_by_the_angle_of_the_last_one() {
+    let mut settings = Settings::default();
+    settings.keep_environment_file(Path::new("a.hdr"));
+    settings.environment_degrees = 30.0;
+    settings.keep_environment_file(Path::new("a.hdr"));
+    assert_eq!(settings.environment_degrees, 30.0);
+    settings.keep_environment_file(Path::new("b.hdr"));
+    assert_eq!(settings.environment_degrees, 0.0);
 }
 
 #[test]

@@ -131,7 +131,8 @@ impl ConvergeArgs {
         let mut loaded = self.scene.load()?;
         loaded.scene = self.clip.apply(loaded.scene)?;
         let scene = &loaded.scene;
-        let camera = self.camera.camera(scene, loaded.view.as_ref())?;
+        let view = loaded.view.as_ref();
+        let (camera, up_axis) = (self.camera.camera(scene, view)?, self.camera.up_axis(view));
         let intersector = self.scene.intersector(scene);
         let memory = self.scene.mesh.memory;
         let size = camera.resolution();
@@ -150,7 +151,9 @@ impl ConvergeArgs {
             camera,
             shading: self.scene.shading.into(),
             background: from_display(DARK_BACKGROUND),
-            lighting: self.light.lighting(&loaded, &camera, memory.bytes())?,
+            lighting: self
+                .light
+                .lighting(&loaded, (&camera, up_axis), memory.bytes())?,
             options: ViewOptions::default(),
         })
     }

@@ -134,14 +134,15 @@ impl InspectArgs {
         self.check_pixel(camera.resolution())?;
         let intersector = self.scene.intersector(scene);
         let shading = self.scene.shading.into();
+        let up_axis = self.camera.up_axis(loaded.view.as_ref());
         let pixel = self.pixel.unwrap_or(camera.resolution() / 2);
         let mut inspection = Inspection::of_pixel(scene, &*intersector, shading, &camera, pixel);
         inspection.thickness = self.thickness.report(scene, &camera, pixel);
         inspection.find_line(&loaded.report.face_lines);
         let for_path = (pixel, self.scene.mesh.memory.bytes());
-        inspection.path = self
-            .path
-            .report(&loaded, intersector, &camera, shading, for_path)?;
+        inspection.path =
+            self.path
+                .report(&loaded, intersector, (&camera, up_axis), shading, for_path)?;
         if self.json {
             writeln!(out, "{}", inspection.to_json())?;
         } else {

@@ -6,6 +6,7 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use glam::{DVec3, Vec3};
 use hitscope_core::brightness::check_brightness;
+use hitscope_core::camera::UpAxis;
 use hitscope_core::integrator::{INTEGRATORS, Integrator, Lighting, Setting};
 use hitscope_core::light::{
     Environment, EnvironmentMap, Light, Lights, LoadedMap, MapPlacement, PlacedMap, studio,
@@ -28,6 +29,10 @@ pub struct LightArgs {
     /// studio [default: the scene file's; constant:1,1,1 if nothing emits light]
     #[arg(long, value_name = "FILE|constant:R,G,B|studio|built-in", value_parser = parse_environment)]
     pub environment: Option<EnvironmentSource>,
+    /// Axis that points up in the environment's picture; that of a scene file stands as its to_world says
+    /// [default: the one that points up in the picture]
+    #[arg(long, value_name = "y|z", value_parser = parse_up_axis)]
+    pub environment_up: Option<UpAxis>,
     /// Turn the environment's picture about its vertical axis, counter-clockwise as seen from above
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = parse_rotation)]
     pub rotation: Option<f32>,
@@ -65,10 +70,11 @@ pub enum EnvironmentSource {
 
 impl LightArgs {
     /// The options that are given, with the setting that each of them changes.
-    fn given(&self) -> [(&'static str, bool, Setting); 7] {
+    fn given(&self) -> [(&'static str, bool, Setting); 8] {
         use Setting::{Depth, Lights, OcclusionDistance, SecondSpawn, Spawn, Terminator};
         [
             ("--environment", self.environment.is_some(), Lights),
+            ("--environment-up", self.environment_up.is_some(), Lights),
             ("--rotation", self.rotation.is_some(), Lights),
             ("--spawn", self.spawn.is_some(), Spawn),
             ("--second-spawn", self.second_spawn.is_some(), SecondSpawn),
@@ -102,6 +108,15 @@ impl LightArgs {
     /// [`CommandError::Usage`].
     pub fn check(&self, views: &[&Integrator]) -> Result<(), CommandError> {
         refuse_without_effect(views, &self.given())?;
+        let has_picture = matches!(
+            self.environment,
+            Some(EnvironmentSource::BuiltIn | EnvironmentSource::File(_))
+        );
+        if self.environment_up.is_some() && !has_picture {
+            let message =
+                "--environment-up has no effect: it needs a picture, as in --environment FILE";
+            return Err(CommandError::Usage(message.to_owned()));
+        }
         let is_even = matches!(
             self.environment,
             Some(EnvironmentSource::Studio | EnvironmentSource::Constant(_))
@@ -113,24 +128,31 @@ impl LightArgs {
         Ok(())
     }
 
-    /// What light transport depends on in a picture of a scene. A picture of an environment may take `max_memory` bytes.
+    /// What light transport depends on in a picture of a scene in which an axis points up. A picture of an environment may
+    /// take `max_memory` bytes.
     ///
     /// # Errors
     /// See [`load`](Self::load).
     pub fn lighting(
         &self,
         loaded: &LoadedScene,
-        camera: &Camera,
+        (camera, up_axis): (&Camera, UpAxis),
         max_memory: u64,
     ) -> Result<Lighting, CommandError> {
-        Ok(self.load(loaded, max_memory)?.seen_by(camera))
+        Ok(self.load(loaded, up_axis, max_memory)?.seen_by(camera))
     }
 
-    /// The light of a scene, for any camera. A picture of an environment may take `max_memory` bytes.
+    /// The light of a scene in whose pictures an axis points up, for any camera. A picture of an environment may take
+    /// `max_memory` bytes.
     ///
     /// # Errors
     /// [`CommandError::Usage`] if there is no picture to turn, and [`CommandError::Load`].
-    pub fn load(&self, loaded: &LoadedScene, max_memory: u64) -> Result<SceneLight, CommandError> {
+    pub fn load(
+        &self,
+        loaded: &LoadedScene,
+        up_axis: UpAxis,
+        max_memory: u64,
+    ) -> Result<SceneLight, CommandError> {
         let default = loaded.lighting();
         let policy = |name: &Option<String>, default: &'static SpawnPolicy| {
             name.as_deref().map_or(default, |name| {
@@ -141,7 +163,8 @@ impl LightArgs {
             .terminator
             .as_deref()
             .map(|name| terminator_repair(name).expect("clap accepts only names in the table"));
-        let lights = self.lights(loaded, max_memory)?;
+        let placement = MapPlacement::upright(self.environment_up.unwrap_or(up_axis));
+        let lights = self.lights(loaded, placement, max_memory)?;
         Ok(SceneLight {
             settings: Lighting {
                 lights: Arc::new(Lights::or_white(&loaded.scene, lights.clone())),
@@ -160,20 +183,24 @@ impl LightArgs {
 
     /// The lights of the file and the chosen environment, which replaces the file's; without the studio, which moves with
     /// the camera.
-    fn lights(&self, loaded: &LoadedScene, max_memory: u64) -> Result<Vec<Light>, CommandError> {
+    fn lights(
+        &self,
+        loaded: &LoadedScene,
+        placement: MapPlacement,
+        max_memory: u64,
+    ) -> Result<Vec<Light>, CommandError> {
         let mut lights = loaded.lights.clone();
+        let placed = |map| Light::Environment(Environment::Map(PlacedMap::new(map, placement)));
         match &self.environment {
             None | Some(EnvironmentSource::Studio) => {}
             Some(EnvironmentSource::Constant(radiance)) => {
                 lights.push(Light::Environment(Environment::Constant(*radiance)));
             }
             Some(EnvironmentSource::BuiltIn) => {
-                lights.push(Light::Environment(Environment::built_in()));
+                lights.push(placed(EnvironmentMap::built_in()));
             }
             Some(EnvironmentSource::File(path)) => {
-                let map = load_map(path, max_memory)?;
-                let map = PlacedMap::new(map, MapPlacement::default());
-                lights.push(Light::Environment(Environment::Map(map)));
+                lights.push(placed(load_map(path, max_memory)?));
             }
         }
         if let Some(degrees) = self.rotation
@@ -292,14 +319,18 @@ fn parse_environment(text: &str) -> Result<EnvironmentSource, String> {
     }
     let Some(colour) = text.strip_prefix("constant:") else {
         let path = PathBuf::from(text);
-        let (kind, colon) = text
-            .split_once(':')
-            .map_or((text, ""), |(kind, _)| (kind, ":"));
+        let kind = text.split_once(':').map_or(text, |(kind, _)| kind);
         return match nearest(kind, ["studio", "built-in", "constant"]) {
-            Some(name) if !path.exists() => Err(format!(
-                "there is no file “{}”; did you mean “{name}{colon}”?",
-                shown(&path)
-            )),
+            Some(name) if !path.exists() => {
+                let meant = match name {
+                    "constant" => "constant:R,G,B",
+                    name => name,
+                };
+                let file = shown(&path);
+                Err(format!(
+                    "there is no file “{file}”; did you mean “{meant}”?"
+                ))
+            }
             _ => Ok(EnvironmentSource::File(path)),
         };
     };
@@ -311,6 +342,15 @@ fn parse_environment(text: &str) -> Result<EnvironmentSource, String> {
     };
     check_brightness(radiance).map_err(|fault| format!("the radiance {fault}"))?;
     Ok(EnvironmentSource::Constant(radiance.as_vec3()))
+}
+
+/// `z`.
+fn parse_up_axis(text: &str) -> Result<UpAxis, String> {
+    match text {
+        "y" => Ok(UpAxis::Y),
+        "z" => Ok(UpAxis::Z),
+        _ => Err("expected y or z".to_owned()),
+    }
 }
 
 /// `-90`.
@@ -364,7 +404,11 @@ mod tests {
             ),
             (
                 "constnat:1",
-                "there is no file “constnat:1”; did you mean “constant:”?",
+                "there is no file “constnat:1”; did you mean “constant:R,G,B”?",
+            ),
+            (
+                "constant",
+                "there is no file “constant”; did you mean “constant:R,G,B”?",
             ),
         ] {
             let message = parse_environment(bad).expect_err(bad);

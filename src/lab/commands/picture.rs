@@ -247,7 +247,9 @@ impl PictureArgs {
         let views = self.view.views(&loaded);
         self.check_views(&views)?;
         let need_light = views.iter().any(|view| view.needs.lights);
-        let light = || self.light.load(&loaded, self.scene.mesh.memory.bytes());
+        let up_axis = self.camera.up_axis(loaded.view.as_ref());
+        let max_memory = self.scene.mesh.memory.bytes();
+        let light = || self.light.load(&loaded, up_axis, max_memory);
         Ok(PreparedScene {
             light: need_light.then(light).transpose()?,
             args: self,

@@ -89,15 +89,18 @@ fn environment_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Command
         EnvironmentSource::Studio => "Studio",
         EnvironmentSource::File => file.as_deref().unwrap_or_default(),
     };
+    let chosen = settings.environment();
     ui.horizontal(|ui| {
         use EnvironmentSource::{Colour, File, Scene, Studio};
         let label = ui.label("Environment");
         egui::ComboBox::from_id_salt("environment")
-            .selected_text(title(settings.environment))
+            .selected_text(title(chosen))
             .show_ui(ui, |ui| {
                 for source in [Scene, Studio, Colour, File] {
-                    if source != File || file.is_some() {
-                        ui.selectable_value(&mut settings.environment, source, title(source));
+                    let is_there = source != File || file.is_some();
+                    let is_chosen = source == chosen;
+                    if is_there && ui.selectable_label(is_chosen, title(source)).clicked() {
+                        settings.keep_environment(source);
                     }
                 }
             })
@@ -106,13 +109,13 @@ fn environment_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Command
             .on_hover_text(
                 "Light from far away. That of the scene is white if nothing in the scene emits light.",
             );
-        if settings.environment == Colour {
+        if settings.environment() == Colour {
             ui.color_edit_button_srgb(&mut settings.environment_colour)
                 .accessible_name("Colour of the environment");
         }
     });
     commands.button_ui(ui, "open-environment");
-    if settings.environment != EnvironmentSource::Scene {
+    if settings.environment() != EnvironmentSource::Scene {
         ui.horizontal(|ui| {
             let label = ui.label("Brightness");
             let slider = number_slider(&mut settings.environment_brightness, BRIGHTNESSES)

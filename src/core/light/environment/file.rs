@@ -51,7 +51,8 @@ impl EnvironmentMap {
         loaded.map_err(|problem| problem.in_file(path))
     }
 
-    /// The map of [`Environment::built_in`](super::Environment::built_in).
+    /// The built-in studio: a large key light, a fill light, a light from behind, and a dim floor. A white horizontal
+    /// surface that faces up reflects the radiance 1.
     pub fn built_in() -> Arc<Self> {
         /// Made by `assets/studio_environment.rs`.
         static STUDIO: &[u8] = include_bytes!("../../../../assets/studio.hdr");
