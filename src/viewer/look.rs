@@ -6,7 +6,6 @@ use hitscope_core::Film;
 use hitscope_core::colour::{ColourMap, ColourScale, colour_map};
 use hitscope_core::integrator::Legend;
 use hitscope_core::plan::PixelRect;
-use hitscope_core::srgb::from_texel;
 use hitscope_core::tone::Display;
 use rayon::prelude::*;
 use std::sync::LazyLock;
@@ -129,16 +128,12 @@ impl Development {
     }
 }
 
-/// The colour of a pixel. A pixel without a sample has the colour of its block; one without noise that of the picture.
+/// The colour of a pixel. A pixel without samples of the picture has that of the film; one without noise that of the
+/// picture.
 fn shown(film: &Film, pixel: UVec2, look: Look) -> [u8; 4] {
     let in_film = film.pixels()[(pixel.y * film.size().x + pixel.x) as usize];
     match look {
-        Look::Picture(display) => {
-            let [r, g, b, _] = in_film;
-            let colour = film.radiance(pixel);
-            let colour = colour.unwrap_or_else(|| from_texel([r, g, b]));
-            display.encode(colour)
-        }
+        Look::Picture(display) => film.shown(pixel, &display).unwrap_or(in_film),
         Look::Noise(factor) => {
             let error = film.standard_error(pixel);
             error.map_or(in_film, |error| noise_colour(f64::from(factor) * error))
@@ -163,7 +158,7 @@ fn noise_colour(error: f64) -> [u8; 4] {
 mod tests {
     use super::*;
     use glam::Vec3;
-    use hitscope_core::film::{SampleSum, TileSamples};
+    use hitscope_core::film::{SampleSum, Seen, TileSamples};
     use hitscope_core::plan::Plan;
     use hitscope_core::tone::TONE_CURVES;
 
@@ -203,6 +198,30 @@ mod tests {
         assert_eq!((rect.min, rect.max), (UVec2::ZERO, SIZE));
         assert_eq!(pixels, [Display::default().encode(Vec3::splat(0.75)); 6]);
         assert!(development.update(&film, None, darker).is_none());
+    }
+
+    #[test]
+    fn exposure_leaves_the_background_as_it_is() {
+        let background = Vec3::new(0.1, 0.2, 0.3);
+        let plan = Plan::new(SIZE, 1, 1);
+        let mut film = Film::new(plan.clone(), background);
+        let mut development = Development::default();
+        let brighter = Look::Picture(Display::new(2.0, TONE_CURVES[1]));
+        let expected = [Display::default().encode(background); 6];
+        // Before there are samples, and with samples that hit nothing.
+        let (pixels, _) = development
+            .update(&film, Some(all()), brighter)
+            .expect("changed");
+        assert_eq!(pixels, expected);
+        let mut sum = SampleSum::default();
+        assert!(sum.add_seen(background, Seen::Background));
+        let sums = vec![sum; 6];
+        let unit = plan.unit(0);
+        film.add(&TileSamples { unit, sums });
+        let (pixels, _) = development
+            .update(&film, Some(all()), brighter)
+            .expect("changed");
+        assert_eq!(pixels, expected);
     }
 
     #[test]

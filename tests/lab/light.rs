@@ -102,6 +102,28 @@ fn exposure_multiplies_light_before_it_is_encoded() {
 }
 
 #[test]
+fn exposure_and_tone_change_neither_the_background_nor_views_without_light() {
+    let lamp = "<emitter type='directional'><vector name='direction' value='0 0 -1'/></emitter>";
+    let folder = folder(&format!("{lamp}{DARK}"));
+    for view in ["direct", "whitted", "path"] {
+        let colours = |options: &str| {
+            let rendered = rendered(&folder, &format!("--view {view} {options}"));
+            let pixels = rendered.film.pixels();
+            [pixels[0], pixels[8 * 16 + 8]]
+        };
+        let ([background, dim], exposed) = (colours(""), colours("--exposure 3 --tone neutral"));
+        assert_eq!(exposed[0], background, "{view}");
+        assert!(exposed[1][0] > dim[0], "{view}");
+    }
+    let args = |options: &str| {
+        let line = format!("@scene.xml -o @out.png --samples 1 --view normal,path {options}");
+        folder.args::<RenderArgs>(&line).trace().expect("rendered")
+    };
+    let normals = args("--exposure 3");
+    assert!(normals.film.pixels() == args("").film.pixels());
+}
+
+#[test]
 fn the_integrator_of_a_scene_file_is_the_default_view() {
     let folder = folder(&format!("<integrator type='normal'/>{DARK}"));
     let pixels = |options: &str| rendered(&folder, options).film.pixels().to_vec();

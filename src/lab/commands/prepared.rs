@@ -108,7 +108,7 @@ impl PreparedPicture<'_> {
             None
         };
         let mut film = render_with_progress(job, threads, |part| meter.set(part))?;
-        film.set_display(args.display.display());
+        film.set_display(args.display.display(view));
         Ok(Rendered {
             view,
             film,
