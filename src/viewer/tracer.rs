@@ -12,6 +12,7 @@ mod pausing;
 mod request;
 mod speed;
 mod status;
+mod stopwatch;
 
 pub use limits::{LEAST_SAMPLES, Limits, StopReason};
 pub use noise::Noise;
@@ -30,6 +31,7 @@ use request::PostedRequest;
 use speed::Speed;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use stopwatch::Stopwatch;
 
 /// Time limit for collecting tiles in one frame.
 const COLLECTING: Duration = Duration::from_millis(6);
@@ -132,6 +134,7 @@ impl Tracer {
             self.count_frame();
         }
         self.end_hold(ctx);
+        self.await_time_limit(ctx);
         panics
     }
 
@@ -168,7 +171,6 @@ impl Tracer {
         self.speeds[usize::from(is_lit)].add(tile.rays, tile.busy);
         if let Some(posted) = &mut self.posted {
             posted.lasted = posted.at.elapsed();
-            posted.busy_secs += tile.busy.as_secs_f64();
         }
         let unit = tile.samples.unit;
         if is_lit && matches!(self.film.plan().pass(unit.pass), Pass::Samples { .. }) {
@@ -222,7 +224,7 @@ impl Tracer {
             at: Instant::now(),
             lasted: Duration::ZERO,
             is_preview,
-            busy_secs: 0.0,
+            refined: Stopwatch::default(),
         });
         self.post();
     }
@@ -232,7 +234,7 @@ impl Tracer {
         let Some(posted) = &mut self.posted else {
             return;
         };
-        posted.busy_secs = 0.0;
+        posted.refined = Stopwatch::default();
         let plan = self.film.plan().clone();
         self.noise = TileNoise::new(plan.tile_count());
         let job = Job {

@@ -58,8 +58,10 @@ Values, in the text and in JSON:
                      the file
   path               of a sample, with --view or --sample: the surfaces that it
                      meets, and the light in linear RGB that each adds to the
-                     sample's colour, emitted there (emission) or scattered
-                     straight from a light (direct). throughput is the part of
+                     sample's radiance, emitted there (emission) or scattered
+                     straight from a light (direct). from_afar is the light of
+                     the environment, or the background, at the end of the
+                     path. throughput is the part of
                      further light that reaches the camera; arriving, the part
                      of the light that surfaces let pass; survival, the
                      probability with which Russian roulette let the path go

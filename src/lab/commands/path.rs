@@ -123,6 +123,6 @@ pub(super) fn print_path(path: &PathReport, out: &mut dyn Write) -> io::Result<(
         writeln!(out, "{}", line.trim_end())?;
     }
     let afar = light_text(path.from_afar);
-    writeln!(out, "  end: {}; light from afar {afar}", path.end)?;
+    writeln!(out, "  end: {}; light of the environment {afar}", path.end)?;
     writeln!(out, "  colour {}", light_text(path.radiance))
 }

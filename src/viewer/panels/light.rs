@@ -215,7 +215,7 @@ fn terminator_ui(ui: &mut egui::Ui, settings: &mut Settings) {
 fn noise_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Commands) {
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.has_time_limit, "Stop after")
-            .on_hover_text("Ends refinement after so many seconds of tracing");
+            .on_hover_text("Ends refinement after this time by the clock, but not before the first pass is done; pauses don't count");
         let secs = number_field(&mut settings.time_limit_s)
             .range(TIME_LIMITS_S)
             .suffix(" s");

@@ -1,11 +1,11 @@
 //! Conditions that end refinement before all samples are traced.
 
-use super::noise::Noise;
+use super::Noise;
 
 /// Conditions that end refinement before all samples are traced. They hold for views that need lights.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
-    /// Seconds of tracing.
+    /// Seconds by the clock since the view began, without pauses.
     pub secs: Option<f64>,
     /// Mean noise, where white is 1.
     pub noise: Option<f64>,
