@@ -1,6 +1,7 @@
 //! What is shown of a film: its picture, with exposure and tone curve, or its noise.
 
 use crate::settings::Settings;
+use crate::tracer::Tracer;
 use glam::UVec2;
 use hitscope_core::Film;
 use hitscope_core::colour::{ColourMap, ColourScale, colour_map};
@@ -16,16 +17,17 @@ pub enum Look {
     /// The picture. The film's own display is the default one.
     Picture(Display),
     /// The standard error of each pixel, multiplied by the factor.
-    Noise(f32),
+    Noise(f64),
 }
 
 impl Look {
-    /// The look that these settings give a film. `is_lit` says whether its view needs lights.
-    pub fn of(settings: &Settings, is_lit: bool) -> Self {
-        if !is_lit {
+    /// The look that these settings give a tracer's film.
+    pub fn of(settings: &Settings, tracer: &Tracer) -> Self {
+        if !tracer.shows_lit() {
             Self::plain()
         } else if settings.shows_noise {
-            Self::Noise(settings.exposure())
+            // Without light there is no noise, whatever the factor.
+            Self::Noise(tracer.luminance().map_or(1.0, |luminance| 1.0 / luminance))
         } else {
             Self::Picture(settings.display())
         }
@@ -41,7 +43,7 @@ impl Look {
     }
 }
 
-/// The range of the colours for noise in percent, where white is 100.
+/// The range of the colours for noise, in percent of the mean luminance.
 const NOISE_RANGE: [f64; 2] = [0.01, 100.0];
 
 fn noise_map() -> &'static ColourMap {
@@ -136,7 +138,7 @@ fn shown(film: &Film, pixel: UVec2, look: Look) -> [u8; 4] {
         Look::Picture(display) => film.shown(pixel, &display).unwrap_or(in_film),
         Look::Noise(factor) => {
             let error = film.standard_error(pixel);
-            error.map_or(in_film, |error| noise_colour(f64::from(factor) * error))
+            error.map_or(in_film, |error| noise_colour(factor * error))
         }
     }
 }

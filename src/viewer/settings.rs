@@ -65,7 +65,7 @@ pub struct Settings {
     pub time_limit_s: f32,
     /// Whether refinement of views that need lights ends at a noise.
     pub has_noise_limit: bool,
-    /// The mean noise, in percent of white.
+    /// The mean noise, in percent of the mean luminance.
     pub noise_limit_percent: f32,
     /// Name of the rule for rays that leave surfaces.
     pub spawn: String,

@@ -15,7 +15,6 @@ mod status;
 mod stopwatch;
 
 pub use limits::{LEAST_SAMPLES, Limits, StopReason};
-pub use noise::Noise;
 pub use request::Request;
 pub use status::Status;
 
@@ -56,6 +55,8 @@ pub struct Tracer {
     /// Speeds of views that don't need lights, previews among them, and of those that do.
     speeds: [Speed; 2],
     noise: TileNoise,
+    /// The number of passes done, and the mean luminance then, if it is known.
+    luminance: (usize, Option<f64>),
     limits: Limits,
     /// The limit that is reached.
     stopped: Option<StopReason>,
@@ -91,6 +92,7 @@ impl Tracer {
             changed_before: None,
             speeds: [Speed::default(); 2],
             noise: TileNoise::default(),
+            luminance: (0, None),
             limits: Limits::default(),
             stopped: None,
             is_paused: false,
@@ -125,6 +127,7 @@ impl Tracer {
         if self.film.passes_done() > 0 {
             self.shows_lit = self.is_lit();
         }
+        self.note_luminance();
         if self.film.passes_done() > 0
             && let Some(posted) = &self.posted
             && !self.is_shown(&posted.request.context)
@@ -160,6 +163,21 @@ impl Tracer {
         self.film.restart(plan, posted.request.context.background);
         self.changed_before = self.changed.take();
         self.post();
+    }
+
+    /// Keeps the luminance that noise is shown relative to, once a pass.
+    fn note_luminance(&mut self) {
+        let passes = self.film.passes_done();
+        if self.luminance.0 != passes {
+            let noise = self.noise.total();
+            self.luminance = (passes, noise.map(|noise| noise.luminance));
+        }
+    }
+
+    /// The mean luminance at the end of the last pass, to which the noise of pixels is shown relative; `None` while noise
+    /// isn't known or all is black.
+    pub fn luminance(&self) -> Option<f64> {
+        self.luminance.1.filter(|&luminance| luminance > 0.0)
     }
 
     fn add(&mut self, tile: &TileResult) {
@@ -247,6 +265,7 @@ impl Tracer {
             plan,
         };
         (self.non_finite, self.hits, self.stopped) = (0, 0, None);
+        self.luminance = (0, None);
         self.apply_pause();
         self.renderer.post(job);
     }

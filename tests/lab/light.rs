@@ -2,7 +2,8 @@
 
 use crate::folder::Folder;
 use glam::{UVec2, Vec3};
-use hitscope_lab::commands::{InfoArgs, Noise, RenderArgs, Rendered};
+use hitscope_core::film::Noise;
+use hitscope_lab::commands::{InfoArgs, RenderArgs, Rendered};
 use serde_json::json;
 
 /// A sphere in the middle of the picture, without a light.
@@ -220,14 +221,21 @@ fn noise_is_that_of_the_samples() {
         &folder,
         "--view direct --environment constant:1 --eye 0,0,10 --target 0,0,20",
     );
-    let expected = Noise {
-        mean: 0.0,
-        worst: 0.0,
-        worst_at: UVec2::ZERO,
+    assert_eq!(even.noise(), Noise::default());
+    let noise = |options: &str| {
+        let options = format!("--view direct --environment {options}");
+        rendered(&folder, &options).noise()
     };
-    assert_eq!(even.noise(), expected);
-    let noise = rendered(&folder, "--view direct --environment studio").noise();
-    assert!(noise.mean > 0.0 && noise.worst > noise.mean, "{noise}");
+    let studio = noise("studio");
+    assert!(
+        studio.mean > 0.0 && studio.worst > studio.mean,
+        "{studio:?}"
+    );
+    // Neither exposure nor brighter light changes it.
+    assert_eq!(noise("studio --exposure 5"), studio);
+    let [dim, bright] = ["0.5", "2"].map(|light| noise(&format!("constant:{light}")));
+    // Powers of two, and a few roundings.
+    assert!((dim.mean - bright.mean).abs() < 1e-6, "{dim:?} {bright:?}");
 }
 
 #[test]

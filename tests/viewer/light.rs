@@ -110,7 +110,7 @@ fn at_the_wanted_noise_nothing_is_traced_and_no_frame_is_drawn() {
     std::thread::sleep(Duration::from_millis(500));
     window.step();
     assert_eq!(window.state().film().passes_done(), passes);
-    window.get_by_label_contains(", stopped by noise");
+    window.get_by_label_contains(", stopped at the noise limit");
 }
 
 /// The pixels of the picture on the screen, with the pointer elsewhere: it would show a tooltip or a read-out.

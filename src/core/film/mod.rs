@@ -4,9 +4,11 @@
 //! aren't clamped. Pixels without a sample show the colour of their block from a coarser pass; those of a tile that the
 //! plan hasn't reached keep the colours of the plan before it.
 
+mod noise;
 mod shown;
 mod sum;
 
+pub use noise::{Noise, NoiseSum};
 pub use shown::{ShownPixel, ShownPixels};
 pub use sum::{SampleSum, Seen};
 

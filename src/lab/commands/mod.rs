@@ -50,7 +50,7 @@ pub use lab::LabArgs;
 pub use light::{EnvironmentSource, LightArgs};
 pub use output::Output;
 pub use path::PathArgs;
-pub use picture::{DARK_BACKGROUND, Noise, PictureArgs, Rendered};
+pub use picture::{DARK_BACKGROUND, PictureArgs, Rendered};
 pub use prepared::{PreparedPicture, PreparedScene};
 pub use render::{OverlayPen, PictureFormat, RenderArgs, parse_png};
 pub use scene::{SceneArgs, ShadingArg};

@@ -13,14 +13,14 @@ use clap::Args;
 use glam::{UVec2, Vec3};
 use hitscope_core::camera::UpAxis;
 use hitscope_core::colour::ColourScale;
-use hitscope_core::film::BYTES_PER_PIXEL;
+use hitscope_core::film::{BYTES_PER_PIXEL, Noise, NoiseSum};
 use hitscope_core::integrator::{Comparison, Integrator, Setting};
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::picture::{Alpha, Guides};
+use hitscope_core::plan::PixelRect;
 use hitscope_core::scene::{FirstTree, Shading};
 use hitscope_core::{Camera, Film};
-use std::fmt;
 use std::sync::Arc;
 
 /// Options of a traced picture
@@ -81,17 +81,6 @@ pub struct Rendered {
     pub alpha: Option<Alpha>,
 }
 
-/// How far the colours of a picture may be off by chance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Noise {
-    /// The mean over all pixels of the standard error of the luminance.
-    pub mean: f64,
-    /// The largest standard error.
-    pub worst: f64,
-    /// The pixel that has it.
-    pub worst_at: UVec2,
-}
-
 impl Rendered {
     /// The pixels as they are displayed, in sRGB with straight alpha, row by row from the top.
     pub fn pixels(&self) -> Vec<[u8; 4]> {
@@ -101,25 +90,14 @@ impl Rendered {
         }
     }
 
-    /// The noise, from the variance of each pixel's samples as if they were independent. Samples that are spread evenly
-    /// have less. With one sample per pixel it isn't known, and counts as 0.
+    /// The noise; none with one sample per pixel, where it isn't known.
     pub fn noise(&self) -> Noise {
-        let errors = self.positions().map(|pixel| {
-            let error = self.film.standard_error(pixel).unwrap_or(0.0);
-            (error, pixel)
-        });
-        let (mut sum, mut worst) = (0.0, (0.0, UVec2::ZERO));
-        for (error, pixel) in errors {
-            sum += error;
-            if error > worst.0 {
-                worst = (error, pixel);
-            }
-        }
-        Noise {
-            mean: sum / f64::from(self.film.size().element_product().max(1)),
-            worst: worst.0,
-            worst_at: worst.1,
-        }
+        let whole = PixelRect {
+            min: UVec2::ZERO,
+            max: self.film.size(),
+        };
+        let sum = NoiseSum::of(&self.film, whole);
+        sum.map_or_else(Noise::default, |sum| sum.noise())
     }
 
     /// The pixels with the legend of the numbers to their right, and the size of both together; `None` if the view shows no
@@ -128,26 +106,15 @@ impl Rendered {
         let scale = self.scale.as_ref()?;
         Some(legend::beside(pixels, self.film.size(), scale))
     }
-
-    fn positions(&self) -> impl Iterator<Item = UVec2> {
-        let UVec2 { x, y } = self.film.size();
-        (0..y).flat_map(move |row| (0..x).map(move |column| UVec2::new(column, row)))
-    }
 }
 
-impl fmt::Display for Noise {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            mean,
-            worst,
-            worst_at,
-        } = self;
-        let (x, y) = (worst_at.x, worst_at.y);
-        write!(
-            f,
-            "noise: standard error of the luminance {mean:.3e} on average, {worst:.3e} at most, at pixel {x},{y}"
-        )
-    }
+/// The noise of a picture as a line of text.
+pub(super) fn noise_text(noise: &Noise) -> String {
+    let [mean, worst] = [noise.mean, noise.worst].map(|part| 100.0 * part);
+    let UVec2 { x, y } = noise.worst_at;
+    format!(
+        "noise: standard error {mean:.3} % of the mean luminance on average, {worst:.3} % at most, at pixel {x},{y}; without pixels that show no surface"
+    )
 }
 
 /// The background of pictures without a window, in sRGB; the dark theme's.

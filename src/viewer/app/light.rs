@@ -49,10 +49,10 @@ impl App {
         self.seen.settings.environment_degrees = degrees.rem_euclid(360.0);
     }
 
-    /// The conditions that end refinement. Noise is that of the picture as it is exposed.
+    /// The conditions that end refinement.
     pub(super) fn limits(&self) -> Limits {
         let settings = &self.seen.settings;
-        let noise = f64::from(settings.noise_limit_percent / settings.exposure()) / 100.0;
+        let noise = f64::from(settings.noise_limit_percent) / 100.0;
         Limits {
             secs: settings
                 .has_time_limit
@@ -63,6 +63,6 @@ impl App {
 
     /// What is shown of the film.
     pub(super) fn look(&self) -> Look {
-        Look::of(&self.seen.settings, self.traced.tracer.shows_lit())
+        Look::of(&self.seen.settings, &self.traced.tracer)
     }
 }

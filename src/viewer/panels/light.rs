@@ -26,7 +26,7 @@ pub const ROTATIONS: RangeInclusive<f32> = 0.0..=360.0;
 const DRAGGED_EXPOSURES: RangeInclusive<f32> = -10.0..=10.0;
 /// Limits on the time of tracing, in seconds.
 pub const TIME_LIMITS_S: RangeInclusive<f32> = 1.0..=86_400.0;
-/// Limits on the noise, in percent of white.
+/// Limits on the noise, in percent of the mean luminance.
 pub const NOISE_LIMITS: RangeInclusive<f32> = 0.001..=100.0;
 
 /// Shows the options that the chosen view uses; nothing if it needs no lights.
@@ -225,8 +225,8 @@ fn noise_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Commands) {
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.has_noise_limit, "Stop at noise")
             .on_hover_text(format!(
-                "Ends refinement when the mean standard error of the pixels is at most this, in percent of white; \
-                 from {LEAST_SAMPLES} samples per pixel on"
+                "Ends refinement when the mean standard error of the pixels that show a surface is at most this, in percent \
+                 of their mean luminance; from {LEAST_SAMPLES} samples per pixel on"
             ));
         let percent = number_field(&mut settings.noise_limit_percent)
             .range(NOISE_LIMITS)

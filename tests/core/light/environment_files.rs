@@ -120,6 +120,20 @@ fn numbers_that_are_not_finite_or_negative_are_replaced_and_counted() {
 }
 
 #[test]
+fn the_luminance_of_a_grey_exr_file_is_read() {
+    let ramp = || FlatSamples::F32((1..=4).map(|k| k as f32).collect());
+    let map = read(&exr(vec![("Y", ramp())], Encoding::SMALL_LOSSLESS));
+    assert_eq!(map.expect("a picture").map.radiance(Vec3::Y).x, 1.5);
+    // Colours relative to the luminance aren't grey.
+    let file = exr(
+        vec![("RY", ramp()), ("Y", ramp())],
+        Encoding::SMALL_LOSSLESS,
+    );
+    let error = read(&file).expect_err("refused").to_string();
+    assert!(error.contains("the channels R, G and B"), "{error}");
+}
+
+#[test]
 fn broken_files_give_one_clear_line() {
     for (bytes, expected) in [
         (Vec::new(), "neither a Radiance HDR nor an OpenEXR picture"),
@@ -132,6 +146,7 @@ fn broken_files_give_one_clear_line() {
         (hdr("#?RADIANCE", "-Y 0 +X 1"), "no pixels"),
         (hdr("#?RADIANCE", "-Y 2 +X 0"), "no pixels"),
         (hdr("#?RADIANCE", "-Y 2"), "line"),
+        (b"#?RADIANCE\n\n".to_vec(), "the file is truncated"),
         (hdr("#?RADIANCE", "-Y 9 +X 1"), "truncated"),
         (hdr("#?RADIANCE", "-Y 65536 +X 65536"), "--max-memory"),
         (hdr("#?RADIANCE\nEXPOSURE=0", "-Y 2 +X 1"), "EXPOSURE"),

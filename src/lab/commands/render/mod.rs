@@ -22,6 +22,7 @@ pub use format::{PictureFormat, parse_png};
 use super::aim::AimArg;
 use super::light::refuse_without_effect;
 use super::output::{is_same_file, is_stream};
+use super::picture::noise_text;
 use super::{CommandError, Output, PictureArgs, PreparedScene, Rendered};
 use crate::progress::{Meter, ProgressBar};
 use clap::Args;
@@ -105,7 +106,8 @@ pub struct RenderArgs {
     /// OpenEXR: the channel A, and colours premultiplied by it)
     #[arg(long)]
     pub transparent: bool,
-    /// Print the standard error of the pixels' luminance, on average and at most
+    /// Print the noise: the standard error of the pixels' luminance, on average and at most, in percent of the mean
+    /// luminance, without pixels that show no surface
     #[arg(long)]
     pub noise: bool,
     /// Draw a bar with the colours of a view of numbers to the right of the picture, and print its title and range
@@ -296,7 +298,7 @@ impl RenderArgs {
             String::new()
         };
         if self.noise {
-            writeln!(out, "{name}{}", rendered.noise())?;
+            writeln!(out, "{name}{}", noise_text(&rendered.noise()))?;
         }
         if self.legend
             && let Some(scale) = &rendered.scale
