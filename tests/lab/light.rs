@@ -279,7 +279,7 @@ fn info_lists_lights() {
     ]);
     assert_eq!(info["lights"], expected);
     let text = folder.text(|f, out| f.args::<InfoArgs>("@scene.xml").run(out));
-    let line = "light               area: 2 primitives, radiance [5.0, 5.0, 5.0], front, area 8\n";
+    let line = "light               area: 2 primitives, radiance [5, 5, 5], front, area 8\n";
     assert!(text.contains(line), "{text}");
     let none = folder.json(|f, out| f.args::<InfoArgs>("@cube.obj --json").run(out));
     assert_eq!(none["lights"], json!([]));
