@@ -160,6 +160,50 @@ fn occlusion_ends_at_the_distance() {
 }
 
 #[test]
+fn an_offset_of_the_coordinates_shows_self_shadowing_and_keeps_the_picture() {
+    let folder = Folder::new();
+    // Slanted, so that points on it are rounded.
+    folder.write(
+        "slope.obj",
+        "v -1 -1 -0.3\nv 1 -1 0.2\nv 1 1 0.7\nv -1 1 0.2\nf 1 2 3 4\n",
+    );
+    let trace = |view: &str, options: &str| {
+        let line = format!(
+            "@slope.obj -o @out.png --samples 4 --size 16x16 --eye 0.1,0.2,4 --target 0,0,0.2 --fov 30 --view {view} {options}"
+        );
+        folder.args::<RenderArgs>(&line).trace().expect("rendered")
+    };
+    let compared = |offset: &str| {
+        let options = format!("--spawn combined --second-spawn fixed-epsilon {offset}");
+        trace("spawning", &options).film.pixels().to_vec()
+    };
+    // Nothing shadows a slope. Near 10⁶, numbers are rounded to 1/16, far more than the fixed ε.
+    let grey = |pixels: &[[u8; 4]]| {
+        pixels
+            .iter()
+            .filter(|[r, g, b, _]| r == g && g == b)
+            .count()
+    };
+    let (near, far) = (compared(""), compared("--offset 1e6,1e6,1e6"));
+    assert!(grey(&far) < grey(&near), "{} {}", grey(&far), grey(&near));
+    // The camera moves with the scene: a power of two keeps all bits of this view of hits.
+    let hits = |options: &str| trace("normal", options).film.pixels().to_vec();
+    let is_background =
+        |pixels: &[[u8; 4]]| pixels.iter().map(|p| *p == pixels[0]).collect::<Vec<_>>();
+    assert_eq!(
+        is_background(&hits("")),
+        is_background(&hits("--offset 0,0,16"))
+    );
+    let sphere = self::folder(DARK);
+    let args = sphere.args::<RenderArgs>("@scene.xml -o @out.png --offset 1,2,3");
+    let error = args.trace().err().expect("refused").to_string();
+    assert!(
+        error.starts_with("--offset moves scenes of triangle meshes"),
+        "{error}"
+    );
+}
+
+#[test]
 fn two_spawn_policies_are_compared() {
     let folder = folder(DARK);
     let pixels = |options: &str| {

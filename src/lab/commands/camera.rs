@@ -298,7 +298,7 @@ fn parse_height(text: &str) -> Result<f64, String> {
 }
 
 /// `1,-2.5,3e4`.
-fn parse_vector(text: &str) -> Result<DVec3, String> {
+pub(super) fn parse_vector(text: &str) -> Result<DVec3, String> {
     let expected = "expected three numbers separated by commas, as in 1,-2.5,3";
     numbers(text, expected).map(DVec3::from_array)
 }

@@ -1,7 +1,7 @@
 //! Options of a traced picture, and its tracing.
 
 use super::args::ViewArg;
-use super::camera::CameraArgs;
+use super::camera::{CameraArgs, parse_vector};
 use super::kernel::parse_kernel;
 use super::legend;
 use super::light::no_effect;
@@ -10,7 +10,7 @@ use super::scene::SceneArgs;
 use super::{ClipArgs, ColourArgs, CommandError, DisplayArgs, LightArgs, ThreadsArg};
 use crate::progress::{Meter, ProgressBar};
 use clap::Args;
-use glam::{UVec2, Vec3};
+use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::UpAxis;
 use hitscope_core::colour::ColourScale;
 use hitscope_core::film::{BYTES_PER_PIXEL, Noise, NoiseSum};
@@ -41,6 +41,10 @@ pub struct PictureArgs {
     /// Colours of numbers and back faces.
     #[command(flatten)]
     pub colours: ColourArgs,
+    /// Add an offset to the coordinates in which the scene is stored, and to the camera's: the larger they are, the more
+    /// are 32-bit numbers rounded, which shows in the view “spawning”. Triangle meshes only
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector)]
+    pub offset: Option<DVec3>,
     /// Clip.
     #[command(flatten)]
     pub clip: ClipArgs,
@@ -106,6 +110,21 @@ impl Rendered {
         let scale = self.scale.as_ref()?;
         Some(legend::beside(pixels, self.film.size(), scale))
     }
+}
+
+/// Adds an offset to the coordinates in which a scene and its lights are stored.
+///
+/// # Errors
+/// [`CommandError::Usage`] if it can't be moved.
+fn move_scene(loaded: &mut LoadedScene, offset: DVec3) -> Result<(), CommandError> {
+    let moved = loaded.scene.moved(offset).ok_or_else(|| {
+        let message = "--offset moves scenes of triangle meshes alone, and not beyond 3.4e38";
+        CommandError::Usage(message.to_owned())
+    })?;
+    loaded.scene = Arc::new(moved);
+    let lights = std::mem::take(&mut loaded.lights).into_iter();
+    loaded.lights = lights.map(|light| light.moved(offset)).collect();
+    Ok(())
 }
 
 /// The noise of a picture as a line of text.
@@ -210,6 +229,9 @@ impl PictureArgs {
         mut loaded: LoadedScene,
         has_guides: bool,
     ) -> Result<PreparedScene<'_>, CommandError> {
+        if let Some(offset) = self.offset {
+            move_scene(&mut loaded, offset)?;
+        }
         loaded.scene = self.clip.apply(loaded.scene)?;
         let views = self.view.views(&loaded);
         self.check_views(&views)?;
