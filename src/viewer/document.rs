@@ -51,6 +51,8 @@ pub struct Document {
     pub loaded: LoadedScene,
     /// Time when loading began; the document doesn't contain later changes of the file.
     pub began: SystemTime,
+    /// The offset that was asked for; see [`move_by`](Self::move_by).
+    pub offset: f64,
     /// The part of the scene that is shown, in the file's coordinates.
     clip: Option<Clip>,
     showing: Showing,
@@ -131,6 +133,7 @@ impl Document {
         Self {
             path,
             is_blank: false,
+            offset: 0.0,
             clip: None,
             showing: Showing::default(),
             part_changes: 0,
@@ -142,6 +145,19 @@ impl Document {
             progress: Progress::default(),
             improvement: Pending::Unasked,
             retired: Retired::default(),
+        }
+    }
+
+    /// Adds an offset along each axis to the coordinates in which the scene is stored, so that their rounding becomes
+    /// visible. A scene that can't be moved stays; see [`LoadedScene::moved`].
+    pub fn move_by(&mut self, offset: f64) {
+        self.offset = offset;
+        if offset != 0.0
+            && let Some(moved) = self.loaded.moved(DVec3::splat(offset))
+        {
+            let kernel = self.packing.kernel;
+            self.packing = Packing::new(kernel, Packed::of(&moved.scene, kernel));
+            self.loaded = moved;
         }
     }
 

@@ -71,6 +71,10 @@ pub struct Settings {
     pub spawn: String,
     /// Name of the rule that the view *Spawn policies* compares with.
     pub second_spawn: String,
+    /// Added to the coordinates in which the scene is stored while the view compares spawn policies. Not kept, as it belongs
+    /// to a scene.
+    #[serde(skip)]
+    pub spawn_offset: f64,
     /// The distance to which surfaces occlude in the view *Ambient occlusion*, in radii of the scene.
     pub ao_distance: f32,
     /// Whether paths have a limit on their surfaces.
@@ -134,6 +138,7 @@ impl Default for Settings {
             noise_limit_percent: 1.0,
             spawn: default_spawn_policy().name.to_owned(),
             second_spawn: SPAWN_POLICIES[0].name.to_owned(),
+            spawn_offset: 0.0,
             ao_distance: 1.0,
             has_depth_limit: false,
             depth_limit: 8,
@@ -247,6 +252,15 @@ impl Settings {
     /// The rule that the view *Spawn policies* compares with.
     pub fn second_spawn(&self) -> &'static SpawnPolicy {
         spawn_policy(&self.second_spawn).unwrap_or(&SPAWN_POLICIES[0])
+    }
+
+    /// What is added to the coordinates in which the scene is stored.
+    pub fn offset(&self) -> f64 {
+        if self.view().needs.uses(Setting::SecondSpawn) {
+            self.spawn_offset
+        } else {
+            0.0
+        }
     }
 
     /// The most surfaces on a path; `None` for no limit.

@@ -4,6 +4,7 @@ use crate::app::drop_file;
 use crate::harness::{Window, app, app_with, bare_with, in_picture, pointer, settle, wait, write};
 use egui::{Event, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
+use glam::UVec2;
 use hitscope::app::App;
 use hitscope::look::noise_legend;
 use hitscope::settings::{EnvironmentSource, Settings};
@@ -274,6 +275,36 @@ fn another_picture_of_an_environment_is_not_rotated_by_the_angle_of_the_last_one
     assert_eq!(settings.environment_degrees, 30.0);
     settings.keep_environment_file(Path::new("b.hdr"));
     assert_eq!(settings.environment_degrees, 0.0);
+}
+
+#[test]
+fn an_offset_moves_scene_and_camera_while_spawn_policies_are_compared() {
+    let settings = Settings {
+        view: "spawning".to_owned(),
+        spawn_offset: 1e6,
+        ..ambient_occlusion(1)
+    };
+    let Some(mut window) = app_with(settings) else {
+        return;
+    };
+    wait(&mut window, "the offset", |app| {
+        app.document().origin().max_element() < -9e5 && app.is_settled()
+    });
+    let in_file = |app: &App| app.turntable().pivot + app.document().origin();
+    assert!(in_file(window.state()).length() < 1e3);
+    let film = window.state().film();
+    let UVec2 { x, y } = film.size();
+    let mut pixels = (0..y).flat_map(|y| (0..x).map(move |x| UVec2::new(x, y)));
+    assert!(
+        pixels.any(|at| film.shows_surface(at)),
+        "the camera follows"
+    );
+    // Other views show the scene as it is in the file.
+    window.get_by_label("Normal").click();
+    wait(&mut window, "no offset", |app| {
+        app.document().origin().min_element() > -9e5 && app.is_settled()
+    });
+    assert!(in_file(window.state()).length() < 1e3);
 }
 
 #[test]

@@ -159,12 +159,6 @@ impl<'a> ShadingPoint<'a> {
         self.start(dir).towards(dir).ok()
     }
 
-    /// The same by another policy.
-    #[inline]
-    pub fn spawn_by(&self, policy: &SpawnPolicy, dir: Vec3) -> Option<Ray> {
-        policy.spawn(&self.departure(policy, dir)).ok()
-    }
-
     /// The ray that continues behind the surface.
     pub fn onward(&self) -> Option<Ray> {
         self.spawn(self.ray.dir)

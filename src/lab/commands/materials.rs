@@ -1,5 +1,6 @@
 //! The materials of a loaded scene, as `hitscope info` lists them.
 
+use glam::Vec3;
 use hitscope_core::Scene;
 use hitscope_core::bsdf::{Scatter as _, Slot};
 use hitscope_core::counts::counted;

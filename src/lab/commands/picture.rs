@@ -112,19 +112,9 @@ impl Rendered {
     }
 }
 
-/// Adds an offset to the coordinates in which a scene and its lights are stored.
-///
-/// # Errors
-/// [`CommandError::Usage`] if it can't be moved.
-fn move_scene(loaded: &mut LoadedScene, offset: DVec3) -> Result<(), CommandError> {
-    let moved = loaded.scene.moved(offset).ok_or_else(|| {
-        let message = "--offset moves scenes of triangle meshes alone, and not beyond 3.4e38";
-        CommandError::Usage(message.to_owned())
-    })?;
-    loaded.scene = Arc::new(moved);
-    let lights = std::mem::take(&mut loaded.lights).into_iter();
-    loaded.lights = lights.map(|light| light.moved(offset)).collect();
-    Ok(())
+fn not_movable() -> CommandError {
+    let message = "--offset moves scenes of triangle meshes alone, and not beyond 3.4e38";
+    CommandError::Usage(message.to_owned())
 }
 
 /// The noise of a picture as a line of text.
@@ -230,7 +220,7 @@ impl PictureArgs {
         has_guides: bool,
     ) -> Result<PreparedScene<'_>, CommandError> {
         if let Some(offset) = self.offset {
-            move_scene(&mut loaded, offset)?;
+            loaded = loaded.moved(offset).ok_or_else(not_movable)?;
         }
         loaded.scene = self.clip.apply(loaded.scene)?;
         let views = self.view.views(&loaded);

@@ -16,6 +16,8 @@ use std::ops::RangeInclusive;
 
 /// Distances of ambient occlusion, in radii of the scene.
 pub const AO_DISTANCES: RangeInclusive<f32> = 0.001..=10.0;
+/// Offsets of coordinates, in units of the file.
+pub const SPAWN_OFFSETS: RangeInclusive<f64> = 0.0..=1e9;
 /// Limits on the surfaces of a path.
 pub const DEPTH_LIMITS: RangeInclusive<u32> = 1..=1000;
 /// Factors of the light from far away.
@@ -71,6 +73,17 @@ pub(super) fn light_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Co
     if needs.uses(Setting::SecondSpawn) {
         let chosen = settings.second_spawn();
         spawn_ui(ui, "compared with", chosen, &mut settings.second_spawn);
+        ui.horizontal(|ui| {
+            let label = ui.label("Offset");
+            let slider = number_slider(&mut settings.spawn_offset, SPAWN_OFFSETS)
+                .logarithmic(true)
+                .smallest_positive(1.0)
+                .custom_formatter(|x, _| format!("{x:.0}"));
+            let slider = ui.add(slider).labelled_by(label.id);
+            slider.on_hover_text(
+                "Added to the coordinates of scene and camera: the larger they are, the more are 32-bit numbers rounded. Scenes of triangle meshes only",
+            );
+        });
     }
     if needs.uses(Setting::Terminator) {
         terminator_ui(ui, settings);
