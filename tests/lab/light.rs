@@ -117,7 +117,9 @@ fn exposure_and_tone_change_neither_the_background_nor_views_without_light() {
         assert!(exposed[1][0] > dim[0], "{view}");
     }
     let args = |options: &str| {
-        let line = format!("@scene.xml -o @out.png --samples 1 --view normal,path {options}");
+        let line = format!(
+            "@scene.xml -o @out-{{view}}.png --samples 1 --view normal --view path {options}"
+        );
         folder.args::<RenderArgs>(&line).trace().expect("rendered")
     };
     let normals = args("--exposure 3");
