@@ -53,6 +53,8 @@ pub struct Document {
     pub began: SystemTime,
     /// The offset that was asked for; see [`move_by`](Self::move_by).
     pub offset: f64,
+    /// Whether the scene couldn't be moved by it.
+    pub ignores_offset: bool,
     /// The part of the scene that is shown, in the file's coordinates.
     clip: Option<Clip>,
     showing: Showing,
@@ -134,6 +136,7 @@ impl Document {
             path,
             is_blank: false,
             offset: 0.0,
+            ignores_offset: false,
             clip: None,
             showing: Showing::default(),
             part_changes: 0,
@@ -152,13 +155,16 @@ impl Document {
     /// visible. A scene that can't be moved stays; see [`LoadedScene::moved`].
     pub fn move_by(&mut self, offset: f64) {
         self.offset = offset;
-        if offset != 0.0
-            && let Some(moved) = self.loaded.moved(DVec3::splat(offset))
-        {
-            let kernel = self.packing.kernel;
-            self.packing = Packing::new(kernel, Packed::of(&moved.scene, kernel));
-            self.loaded = moved;
+        if offset == 0.0 {
+            return;
         }
+        let Some(moved) = self.loaded.moved(DVec3::splat(offset)) else {
+            self.ignores_offset = true;
+            return;
+        };
+        let kernel = self.packing.kernel;
+        self.packing = Packing::new(kernel, Packed::of(&moved.scene, kernel));
+        self.loaded = moved;
     }
 
     /// Starts to build the scene's best tree unless the scene has it. The scene switches to it when it is built.

@@ -308,6 +308,27 @@ fn an_offset_moves_scene_and_camera_while_spawn_policies_are_compared() {
 }
 
 #[test]
+fn an_offset_of_a_scene_with_other_shapes_is_refused_with_a_message() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let settings = Settings {
+        view: "spawning".to_owned(),
+        spawn_offset: 1e6,
+        ..ambient_occlusion(1)
+    };
+    let Some(mut window) = bare_with(settings) else {
+        return;
+    };
+    drop_file(&mut window, sphere(&folder, "sphere.xml", ""));
+    wait(&mut window, "the message", |app| {
+        app.toasts()
+            .iter()
+            .any(|text| text.starts_with("Only the coordinates of triangle meshes"))
+    });
+    settle(&mut window, "sphere.xml");
+    assert!(window.state().document().origin().length() < 1e3);
+}
+
+#[test]
 fn brightness_and_exposure_stay_within_the_films_range() {
     let folder = tempfile::tempdir().expect("a folder");
     let sky = folder.path().join("sky.hdr");

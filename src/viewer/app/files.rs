@@ -203,6 +203,9 @@ impl App {
             self.warn(&text);
         }
         self.note_warnings();
+        if self.open.document.ignores_offset {
+            self.tell("Only the coordinates of triangle meshes can be moved by an offset");
+        }
     }
 
     /// Adds the document's warnings to the log, except the first one, which is shown as a notice.
