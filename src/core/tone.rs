@@ -123,19 +123,38 @@ impl Display {
 
     /// A linear colour as 8-bit sRGB with alpha 255. NaN counts as 0.
     pub fn encode(&self, linear: Vec3) -> [u8; 4] {
-        /// Steps of the table from 0 to 1, finer than 8-bit sRGB.
-        const STEPS: f32 = 65536.0;
-        /// sRGB for each step. A table, because `powf` per pixel is too slow for the UI thread.
-        static SRGB: LazyLock<Vec<u8>> = LazyLock::new(|| {
-            let encoded = |i: u32| (255.0 * to_display(i as f32 / STEPS)).round() as u8;
-            (0..=STEPS as u32).map(encoded).collect()
-        });
-        // Rounded by truncation: `round` calls a function on CPUs without SSE 4.1. NaN is 0.
-        let encoded = |x: f32| SRGB[(x.clamp(0.0, 1.0) * STEPS + 0.5) as usize];
-        let colour = self.curve.map(self.factor * linear);
-        let [r, g, b] = colour.to_array().map(encoded);
-        [r, g, b, 255]
+        encoded(self.shown(linear))
     }
+
+    /// The same for light of a pixel of which a part from 0 to 1 shows a background, a linear colour that exposure and tone
+    /// curve don't change.
+    pub fn encode_over(&self, light: Vec3, part: f32, background: Vec3) -> [u8; 4] {
+        let rest = 1.0 - part;
+        if rest <= 0.0 {
+            return encoded(background);
+        }
+        encoded(rest * self.shown(light / rest) + part * background)
+    }
+
+    /// The linear colour from 0 to 1 that the screen shows.
+    fn shown(&self, linear: Vec3) -> Vec3 {
+        self.curve.map(self.factor * linear)
+    }
+}
+
+/// A linear colour as 8-bit sRGB with alpha 255. NaN counts as 0.
+fn encoded(linear: Vec3) -> [u8; 4] {
+    /// Steps of the table from 0 to 1, finer than 8-bit sRGB.
+    const STEPS: f32 = 65536.0;
+    /// sRGB for each step. A table, because `powf` per pixel is too slow for the UI thread.
+    static SRGB: LazyLock<Vec<u8>> = LazyLock::new(|| {
+        let encoded = |i: u32| (255.0 * to_display(i as f32 / STEPS)).round() as u8;
+        (0..=STEPS as u32).map(encoded).collect()
+    });
+    // Rounded by truncation: `round` calls a function on CPUs without SSE 4.1. NaN is 0.
+    let channel = |x: f32| SRGB[(x.clamp(0.0, 1.0) * STEPS + 0.5) as usize];
+    let [r, g, b] = linear.to_array().map(channel);
+    [r, g, b, 255]
 }
 
 impl Default for Display {

@@ -51,6 +51,10 @@ pub struct Document {
     pub loaded: LoadedScene,
     /// Time when loading began; the document doesn't contain later changes of the file.
     pub began: SystemTime,
+    /// The offset that was asked for; see [`move_by`](Self::move_by).
+    pub offset: f64,
+    /// Whether the scene couldn't be moved by it.
+    pub ignores_offset: bool,
     /// The part of the scene that is shown, in the file's coordinates.
     clip: Option<Clip>,
     showing: Showing,
@@ -131,6 +135,8 @@ impl Document {
         Self {
             path,
             is_blank: false,
+            offset: 0.0,
+            ignores_offset: false,
             clip: None,
             showing: Showing::default(),
             part_changes: 0,
@@ -143,6 +149,22 @@ impl Document {
             improvement: Pending::Unasked,
             retired: Retired::default(),
         }
+    }
+
+    /// Adds an offset along each axis to the coordinates in which the scene is stored, so that their rounding becomes
+    /// visible. A scene that can't be moved stays; see [`LoadedScene::moved`].
+    pub fn move_by(&mut self, offset: f64) {
+        self.offset = offset;
+        if offset == 0.0 {
+            return;
+        }
+        let Some(moved) = self.loaded.moved(DVec3::splat(offset)) else {
+            self.ignores_offset = true;
+            return;
+        };
+        let kernel = self.packing.kernel;
+        self.packing = Packing::new(kernel, Packed::of(&moved.scene, kernel));
+        self.loaded = moved;
     }
 
     /// Starts to build the scene's best tree unless the scene has it. The scene switches to it when it is built.

@@ -1,12 +1,12 @@
 //! What is shown of a film: its picture, with exposure and tone curve, or its noise.
 
 use crate::settings::Settings;
+use crate::tracer::Tracer;
 use glam::UVec2;
 use hitscope_core::Film;
 use hitscope_core::colour::{ColourMap, ColourScale, colour_map};
 use hitscope_core::integrator::Legend;
 use hitscope_core::plan::PixelRect;
-use hitscope_core::srgb::from_texel;
 use hitscope_core::tone::Display;
 use rayon::prelude::*;
 use std::sync::LazyLock;
@@ -17,16 +17,17 @@ pub enum Look {
     /// The picture. The film's own display is the default one.
     Picture(Display),
     /// The standard error of each pixel, multiplied by the factor.
-    Noise(f32),
+    Noise(f64),
 }
 
 impl Look {
-    /// The look that these settings give a film. `is_lit` says whether its view needs lights.
-    pub fn of(settings: &Settings, is_lit: bool) -> Self {
-        if !is_lit {
+    /// The look that these settings give a tracer's film.
+    pub fn of(settings: &Settings, tracer: &Tracer) -> Self {
+        if !tracer.shows_lit() {
             Self::plain()
         } else if settings.shows_noise {
-            Self::Noise(settings.exposure())
+            // Without light there is no noise, whatever the factor.
+            Self::Noise(tracer.luminance().map_or(1.0, |luminance| 1.0 / luminance))
         } else {
             Self::Picture(settings.display())
         }
@@ -42,7 +43,7 @@ impl Look {
     }
 }
 
-/// The range of the colours for noise in percent, where white is 100.
+/// The range of the colours for noise, in percent of the mean luminance.
 const NOISE_RANGE: [f64; 2] = [0.01, 100.0];
 
 fn noise_map() -> &'static ColourMap {
@@ -129,19 +130,15 @@ impl Development {
     }
 }
 
-/// The colour of a pixel. A pixel without a sample has the colour of its block; one without noise that of the picture.
+/// The colour of a pixel. A pixel without samples of the picture has that of the film; one without noise that of the
+/// picture.
 fn shown(film: &Film, pixel: UVec2, look: Look) -> [u8; 4] {
     let in_film = film.pixels()[(pixel.y * film.size().x + pixel.x) as usize];
     match look {
-        Look::Picture(display) => {
-            let [r, g, b, _] = in_film;
-            let colour = film.radiance(pixel);
-            let colour = colour.unwrap_or_else(|| from_texel([r, g, b]));
-            display.encode(colour)
-        }
+        Look::Picture(display) => film.shown(pixel, &display).unwrap_or(in_film),
         Look::Noise(factor) => {
             let error = film.standard_error(pixel);
-            error.map_or(in_film, |error| noise_colour(f64::from(factor) * error))
+            error.map_or(in_film, |error| noise_colour(factor * error))
         }
     }
 }
@@ -163,7 +160,7 @@ fn noise_colour(error: f64) -> [u8; 4] {
 mod tests {
     use super::*;
     use glam::Vec3;
-    use hitscope_core::film::{SampleSum, TileSamples};
+    use hitscope_core::film::{SampleSum, Seen, TileSamples};
     use hitscope_core::plan::Plan;
     use hitscope_core::tone::TONE_CURVES;
 
@@ -203,6 +200,30 @@ mod tests {
         assert_eq!((rect.min, rect.max), (UVec2::ZERO, SIZE));
         assert_eq!(pixels, [Display::default().encode(Vec3::splat(0.75)); 6]);
         assert!(development.update(&film, None, darker).is_none());
+    }
+
+    #[test]
+    fn exposure_leaves_the_background_as_it_is() {
+        let background = Vec3::new(0.1, 0.2, 0.3);
+        let plan = Plan::new(SIZE, 1, 1);
+        let mut film = Film::new(plan.clone(), background);
+        let mut development = Development::default();
+        let brighter = Look::Picture(Display::new(2.0, TONE_CURVES[1]));
+        let expected = [Display::default().encode(background); 6];
+        // Before there are samples, and with samples that hit nothing.
+        let (pixels, _) = development
+            .update(&film, Some(all()), brighter)
+            .expect("changed");
+        assert_eq!(pixels, expected);
+        let mut sum = SampleSum::default();
+        assert!(sum.add_seen(background, Seen::Background));
+        let sums = vec![sum; 6];
+        let unit = plan.unit(0);
+        film.add(&TileSamples { unit, sums });
+        let (pixels, _) = development
+            .update(&film, Some(all()), brighter)
+            .expect("changed");
+        assert_eq!(pixels, expected);
     }
 
     #[test]

@@ -18,17 +18,22 @@ pub struct Loading {
 }
 
 impl Loading {
-    /// Starts the loading thread, which packs the scene for a kernel.
+    /// Starts the loading thread, which packs the scene for a kernel and adds an offset to its coordinates.
     pub fn start(
         path: PathBuf,
         load_options: LoadOptions,
         kernel: KernelChoice,
         options: SceneOptions,
+        offset: f64,
         ctx: &egui::Context,
     ) -> Self {
         let progress = Progress::default();
         let (shared, file) = (progress.clone(), path.clone());
-        let load = move || Document::load(&file, kernel, load_options, options, &shared);
+        let load = move || {
+            let mut document = Document::load(&file, kernel, load_options, options, &shared)?;
+            document.move_by(offset);
+            Ok(document)
+        };
         Self {
             path,
             progress,

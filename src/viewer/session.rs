@@ -80,6 +80,7 @@ impl Session {
         settings.keep_view(view.name);
         settings.keep_kernel(kernel.info.name);
         settings.keep_up_axis(axis);
+        settings.keep_environment(settings.environment());
         Self {
             hitscope: viewpoint::SESSION_FORMAT,
             file,

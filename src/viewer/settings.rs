@@ -16,7 +16,7 @@ use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy, default_spawn_policy, sp
 use hitscope_core::terminator::{TerminatorRepair, default_terminator_repair, terminator_repair};
 use hitscope_core::tone::{Display, TONE_CURVES, ToneCurve, tone_curve};
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Where light from far away comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -65,12 +65,16 @@ pub struct Settings {
     pub time_limit_s: f32,
     /// Whether refinement of views that need lights ends at a noise.
     pub has_noise_limit: bool,
-    /// The mean noise, in percent of white.
+    /// The mean noise, in percent of the mean luminance.
     pub noise_limit_percent: f32,
     /// Name of the rule for rays that leave surfaces.
     pub spawn: String,
     /// Name of the rule that the view *Spawn policies* compares with.
     pub second_spawn: String,
+    /// Added to the coordinates in which the scene is stored while the view compares spawn policies. Not kept, as it belongs
+    /// to a scene.
+    #[serde(skip)]
+    pub spawn_offset: f64,
     /// The distance to which surfaces occlude in the view *Ambient occlusion*, in radii of the scene.
     pub ao_distance: f32,
     /// Whether paths have a limit on their surfaces.
@@ -81,6 +85,9 @@ pub struct Settings {
     pub terminator: String,
     /// Where light from far away comes from.
     pub environment: EnvironmentSource,
+    /// Whether the open file has an environment of its own, which is used instead.
+    #[serde(skip)]
+    pub has_file_environment: bool,
     /// The picture of [`EnvironmentSource::File`].
     pub environment_file: Option<PathBuf>,
     /// sRGB of [`EnvironmentSource::Colour`].
@@ -131,11 +138,13 @@ impl Default for Settings {
             noise_limit_percent: 1.0,
             spawn: default_spawn_policy().name.to_owned(),
             second_spawn: SPAWN_POLICIES[0].name.to_owned(),
+            spawn_offset: 0.0,
             ao_distance: 1.0,
             has_depth_limit: false,
             depth_limit: 8,
             terminator: default_terminator_repair().name.to_owned(),
             environment: EnvironmentSource::Scene,
+            has_file_environment: false,
             environment_file: None,
             environment_colour: [255; 3],
             environment_brightness: 1.0,
@@ -245,6 +254,15 @@ impl Settings {
         spawn_policy(&self.second_spawn).unwrap_or(&SPAWN_POLICIES[0])
     }
 
+    /// What is added to the coordinates in which the scene is stored.
+    pub fn offset(&self) -> f64 {
+        if self.view().needs.uses(Setting::SecondSpawn) {
+            self.spawn_offset
+        } else {
+            0.0
+        }
+    }
+
     /// The most surfaces on a path; `None` for no limit.
     pub fn depth_limit(&self) -> Option<u32> {
         self.has_depth_limit.then_some(self.depth_limit)
@@ -263,7 +281,31 @@ impl Settings {
     /// Whether the light from far away is a picture, which can be rotated.
     pub fn has_map(&self) -> bool {
         use EnvironmentSource::{File, Studio};
-        self.shows_light() && matches!(self.environment, Studio | File)
+        self.shows_light() && matches!(self.environment(), Studio | File)
+    }
+
+    /// Where light from far away comes from.
+    pub fn environment(&self) -> EnvironmentSource {
+        if self.has_file_environment {
+            EnvironmentSource::Scene
+        } else {
+            self.environment
+        }
+    }
+
+    /// Uses an environment and keeps it between runs.
+    pub fn keep_environment(&mut self, source: EnvironmentSource) {
+        self.has_file_environment = false;
+        self.environment = source;
+    }
+
+    /// Uses the picture of an environment in a file, unrotated if it is another one than before, and keeps it between runs.
+    pub fn keep_environment_file(&mut self, path: &Path) {
+        if self.environment_file.as_deref() != Some(path) {
+            self.environment_degrees = 0.0;
+        }
+        self.environment_file = Some(path.to_owned());
+        self.keep_environment(EnvironmentSource::File);
     }
 
     /// Whether exposure and tone curve change the picture. The view *Shaded* is shown as it is, which is faster.
@@ -309,60 +351,4 @@ impl Settings {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_session_kernel_is_used_but_not_stored() {
-        let mut settings = Settings::default();
-        let kept = settings.kernel.clone();
-        settings.use_for_session("exact");
-        assert_eq!(settings.kernel().info.name, "exact");
-        let stored = serde_json::to_string(&settings).expect("plain data");
-        let later: Settings = serde_json::from_str(&stored).expect("what was stored");
-        assert_eq!(later.kernel().info.name, kept);
-        settings.keep_kernel("exact");
-        let stored = serde_json::to_string(&settings).expect("plain data");
-        let later: Settings = serde_json::from_str(&stored).expect("what was stored");
-        assert_eq!(later.kernel().info.name, "exact");
-    }
-
-    #[test]
-    fn a_chosen_view_is_stored_but_not_that_of_a_file() {
-        let mut settings = Settings::default();
-        settings.keep_view("normal");
-        settings.file_view = Some("path");
-        assert_eq!(settings.view().name, "path");
-        let stored = serde_json::to_string(&settings).expect("plain data");
-        let later: Settings = serde_json::from_str(&stored).expect("what was stored");
-        assert_eq!(later.view().name, "normal");
-        settings.keep_view("depth");
-        assert_eq!(settings.view().name, "depth");
-    }
-
-    #[test]
-    fn normals_are_turned_on_by_the_shading_and_all_are_turned_off() {
-        let mut settings = Settings::default();
-        for is_smooth in [false, true] {
-            settings.is_smooth = is_smooth;
-            settings.toggle_normals();
-            let overlays = &settings.overlays;
-            let on = [&FACE_NORMALS, &VERTEX_NORMALS].map(|normals| overlays.is_on(normals));
-            assert_eq!(on, [!is_smooth, is_smooth]);
-            settings.is_smooth = !is_smooth;
-            settings.toggle_normals();
-            assert!(!settings.shows_normals());
-        }
-    }
-
-    #[test]
-    fn the_up_axis_is_stored_but_not_that_of_a_files_view() {
-        let mut settings = Settings::default();
-        settings.keep_up_axis(UpAxis::Z);
-        settings.file_up_axis = Some(UpAxis::Y);
-        assert_eq!(settings.up_axis(), UpAxis::Y);
-        let stored = serde_json::to_string(&settings).expect("plain data");
-        let later: Settings = serde_json::from_str(&stored).expect("what was stored");
-        assert_eq!(later.up_axis(), UpAxis::Z);
-    }
-}
+mod tests;

@@ -12,9 +12,9 @@ mod pausing;
 mod request;
 mod speed;
 mod status;
+mod stopwatch;
 
 pub use limits::{LEAST_SAMPLES, Limits, StopReason};
-pub use noise::Noise;
 pub use request::Request;
 pub use status::Status;
 
@@ -30,6 +30,7 @@ use request::PostedRequest;
 use speed::Speed;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use stopwatch::Stopwatch;
 
 /// Time limit for collecting tiles in one frame.
 const COLLECTING: Duration = Duration::from_millis(6);
@@ -54,6 +55,8 @@ pub struct Tracer {
     /// Speeds of views that don't need lights, previews among them, and of those that do.
     speeds: [Speed; 2],
     noise: TileNoise,
+    /// The number of passes done, and the mean luminance then, if it is known.
+    luminance: (usize, Option<f64>),
     limits: Limits,
     /// The limit that is reached.
     stopped: Option<StopReason>,
@@ -89,6 +92,7 @@ impl Tracer {
             changed_before: None,
             speeds: [Speed::default(); 2],
             noise: TileNoise::default(),
+            luminance: (0, None),
             limits: Limits::default(),
             stopped: None,
             is_paused: false,
@@ -123,6 +127,7 @@ impl Tracer {
         if self.film.passes_done() > 0 {
             self.shows_lit = self.is_lit();
         }
+        self.note_luminance();
         if self.film.passes_done() > 0
             && let Some(posted) = &self.posted
             && !self.is_shown(&posted.request.context)
@@ -132,6 +137,7 @@ impl Tracer {
             self.count_frame();
         }
         self.end_hold(ctx);
+        self.await_time_limit(ctx);
         panics
     }
 
@@ -159,6 +165,21 @@ impl Tracer {
         self.post();
     }
 
+    /// Keeps the luminance that noise is shown relative to, once a pass.
+    fn note_luminance(&mut self) {
+        let passes = self.film.passes_done();
+        if self.luminance.0 != passes {
+            let noise = self.noise.total();
+            self.luminance = (passes, noise.map(|noise| noise.luminance));
+        }
+    }
+
+    /// The mean luminance at the end of the last pass, to which the noise of pixels is shown relative; `None` while noise
+    /// isn't known or all is black.
+    pub fn luminance(&self) -> Option<f64> {
+        self.luminance.1.filter(|&luminance| luminance > 0.0)
+    }
+
     fn add(&mut self, tile: &TileResult) {
         let rect = self.film.add(&tile.samples);
         self.changed = Some(self.changed.map_or(rect, |changed| changed.union(rect)));
@@ -168,7 +189,6 @@ impl Tracer {
         self.speeds[usize::from(is_lit)].add(tile.rays, tile.busy);
         if let Some(posted) = &mut self.posted {
             posted.lasted = posted.at.elapsed();
-            posted.busy_secs += tile.busy.as_secs_f64();
         }
         let unit = tile.samples.unit;
         if is_lit && matches!(self.film.plan().pass(unit.pass), Pass::Samples { .. }) {
@@ -222,7 +242,7 @@ impl Tracer {
             at: Instant::now(),
             lasted: Duration::ZERO,
             is_preview,
-            busy_secs: 0.0,
+            refined: Stopwatch::default(),
         });
         self.post();
     }
@@ -232,7 +252,7 @@ impl Tracer {
         let Some(posted) = &mut self.posted else {
             return;
         };
-        posted.busy_secs = 0.0;
+        posted.refined = Stopwatch::default();
         let plan = self.film.plan().clone();
         self.noise = TileNoise::new(plan.tile_count());
         let job = Job {
@@ -245,6 +265,7 @@ impl Tracer {
             plan,
         };
         (self.non_finite, self.hits, self.stopped) = (0, 0, None);
+        self.luminance = (0, None);
         self.apply_pause();
         self.renderer.post(job);
     }

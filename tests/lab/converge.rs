@@ -76,14 +76,32 @@ fn a_setting_ends_at_its_time_and_the_report_has_the_figures() {
 fn impossible_settings_are_refused() {
     let folder = folder();
     for (setting, why) in [
-        ("normal", "“normal” isn't a view of light"),
+        (
+            "normal",
+            "the colours of “normal” aren't light; expected direct, whitted or path",
+        ),
+        (
+            "ao",
+            "the colours of “ao” aren't light; expected direct, whitted or path",
+        ),
+        (
+            "pth",
+            "there is no view “pth”; expected direct, whitted or path",
+        ),
+        ("path,depth=x", "depth is a whole number, not “x”"),
         ("direct,depth=2", "depth has no effect on the view “direct”"),
-        ("path,speed=2", "“speed=2” is unknown"),
+        (
+            "path,speed=2",
+            "“speed=2” is none of depth=N, spawn=POLICY and kernel=KERNEL",
+        ),
         (
             "path,kernel=fsat",
             "“kernel=fsat”: did you mean fast? `hitscope lab --help` lists all kernels",
         ),
-        ("path,depth", "“depth” is unknown"),
+        (
+            "path,depth",
+            "“depth” is none of depth=N, spawn=POLICY and kernel=KERNEL",
+        ),
     ] {
         let line = format!("@scene.xml --setting {setting}");
         let result = folder.args::<ConvergeArgs>(&line).run(&mut Vec::new());

@@ -2,7 +2,8 @@
 
 use crate::folder::Folder;
 use glam::{UVec2, Vec3};
-use hitscope_lab::commands::{InfoArgs, Noise, RenderArgs, Rendered};
+use hitscope_core::film::Noise;
+use hitscope_lab::commands::{InfoArgs, RenderArgs, Rendered};
 use serde_json::json;
 
 /// A sphere in the middle of the picture, without a light.
@@ -44,6 +45,35 @@ fn an_environment_replaces_that_of_the_file() {
 }
 
 #[test]
+fn the_sky_of_an_environment_is_above_the_scene_if_the_z_axis_points_up() {
+    let z_up = DARK
+        .replace("0,0,10", "0,-10,0")
+        .replace("up=\"0,1,0\"", "up=\"0,0,1\"");
+    let folder = folder(&z_up);
+    // White above and black below.
+    let mut sky = b"#?RADIANCE\n\n-Y 2 +X 1\n".to_vec();
+    sky.extend([128, 128, 128, 129, 0, 0, 0, 0]);
+    std::fs::write(folder.path("sky.hdr"), sky).expect("written");
+    let corners = |options: &str| {
+        let options = format!("--view direct --environment @sky.hdr {options}");
+        let film = rendered(&folder, &options).film;
+        [0, 15].map(|y| film.radiance(UVec2::new(0, y)).expect("traced").x)
+    };
+    // The horizon is grey. Half of the angle of view, 20°, is a ninth of the way from pole to pole.
+    let [above, below] = corners("");
+    assert!(above - below > 0.1, "{above} {below}");
+    // Seen from below, the zenith is in the middle of the picture.
+    let [above, below] = corners("--environment-up y");
+    assert!((above - below).abs() < 0.02, "{above} {below}");
+    // The rotation is about the vertical axis, along which this sky changes.
+    let [above, below] = corners("--rotation 90");
+    assert!(above - below > 0.1, "{above} {below}");
+    let args = folder.args::<RenderArgs>("@scene.xml -o @out.png --view path --environment-up z");
+    let error = args.trace().err().expect("refused").to_string();
+    assert!(error.contains("--environment FILE"), "{error}");
+}
+
+#[test]
 fn a_scene_without_a_light_is_lit_by_white_light() {
     for view in ["direct", "path"] {
         let rendered = rendered(&folder(DARK), &format!("--view {view}"));
@@ -70,6 +100,30 @@ fn exposure_multiplies_light_before_it_is_encoded() {
     );
     let bright = rendered(&folder, "--view direct --environment constant:0.5");
     assert_eq!(dim.film.pixels(), bright.film.pixels());
+}
+
+#[test]
+fn exposure_and_tone_change_neither_the_background_nor_views_without_light() {
+    let lamp = "<emitter type='directional'><vector name='direction' value='0 0 -1'/></emitter>";
+    let folder = folder(&format!("{lamp}{DARK}"));
+    for view in ["direct", "whitted", "path"] {
+        let colours = |options: &str| {
+            let rendered = rendered(&folder, &format!("--view {view} {options}"));
+            let pixels = rendered.film.pixels();
+            [pixels[0], pixels[8 * 16 + 8]]
+        };
+        let ([background, dim], exposed) = (colours(""), colours("--exposure 3 --tone neutral"));
+        assert_eq!(exposed[0], background, "{view}");
+        assert!(exposed[1][0] > dim[0], "{view}");
+    }
+    let args = |options: &str| {
+        let line = format!(
+            "@scene.xml -o @out-{{view}}.png --samples 1 --view normal --view path {options}"
+        );
+        folder.args::<RenderArgs>(&line).trace().expect("rendered")
+    };
+    let normals = args("--exposure 3");
+    assert!(normals.film.pixels() == args("").film.pixels());
 }
 
 #[test]
@@ -105,6 +159,50 @@ fn occlusion_ends_at_the_distance() {
         light.sum::<f32>() / 256.0
     };
     assert!(mean("") < mean("--ao-distance 0.001"));
+}
+
+#[test]
+fn an_offset_of_the_coordinates_shows_self_shadowing_and_keeps_the_picture() {
+    let folder = Folder::new();
+    // Slanted, so that points on it are rounded.
+    folder.write(
+        "slope.obj",
+        "v -1 -1 -0.3\nv 1 -1 0.2\nv 1 1 0.7\nv -1 1 0.2\nf 1 2 3 4\n",
+    );
+    let trace = |view: &str, options: &str| {
+        let line = format!(
+            "@slope.obj -o @out.png --samples 4 --size 16x16 --eye 0.1,0.2,4 --target 0,0,0.2 --fov 30 --view {view} {options}"
+        );
+        folder.args::<RenderArgs>(&line).trace().expect("rendered")
+    };
+    let compared = |offset: &str| {
+        let options = format!("--spawn combined --second-spawn fixed-epsilon {offset}");
+        trace("spawning", &options).film.pixels().to_vec()
+    };
+    // Nothing shadows a slope. Near 10⁶, numbers are rounded to 1/16, far more than the fixed ε.
+    let grey = |pixels: &[[u8; 4]]| {
+        pixels
+            .iter()
+            .filter(|[r, g, b, _]| r == g && g == b)
+            .count()
+    };
+    let (near, far) = (compared(""), compared("--offset 1e6,1e6,1e6"));
+    assert!(grey(&far) < grey(&near), "{} {}", grey(&far), grey(&near));
+    // The camera moves with the scene: a power of two keeps all bits of this view of hits.
+    let hits = |options: &str| trace("normal", options).film.pixels().to_vec();
+    let is_background =
+        |pixels: &[[u8; 4]]| pixels.iter().map(|p| *p == pixels[0]).collect::<Vec<_>>();
+    assert_eq!(
+        is_background(&hits("")),
+        is_background(&hits("--offset 0,0,16"))
+    );
+    let sphere = self::folder(DARK);
+    let args = sphere.args::<RenderArgs>("@scene.xml -o @out.png --offset 1,2,3");
+    let error = args.trace().err().expect("refused").to_string();
+    assert!(
+        error.starts_with("--offset moves scenes of triangle meshes"),
+        "{error}"
+    );
 }
 
 #[test]
@@ -169,14 +267,21 @@ fn noise_is_that_of_the_samples() {
         &folder,
         "--view direct --environment constant:1 --eye 0,0,10 --target 0,0,20",
     );
-    let expected = Noise {
-        mean: 0.0,
-        worst: 0.0,
-        worst_at: UVec2::ZERO,
+    assert_eq!(even.noise(), Noise::default());
+    let noise = |options: &str| {
+        let options = format!("--view direct --environment {options}");
+        rendered(&folder, &options).noise()
     };
-    assert_eq!(even.noise(), expected);
-    let noise = rendered(&folder, "--view direct --environment studio").noise();
-    assert!(noise.mean > 0.0 && noise.worst > noise.mean, "{noise}");
+    let studio = noise("studio");
+    assert!(
+        studio.mean > 0.0 && studio.worst > studio.mean,
+        "{studio:?}"
+    );
+    // Neither exposure nor brighter light changes it.
+    assert_eq!(noise("studio --exposure 5"), studio);
+    let [dim, bright] = ["0.5", "2"].map(|light| noise(&format!("constant:{light}")));
+    // Powers of two, and a few roundings.
+    assert!((dim.mean - bright.mean).abs() < 1e-6, "{dim:?} {bright:?}");
 }
 
 #[test]
@@ -220,7 +325,7 @@ fn info_lists_lights() {
     ]);
     assert_eq!(info["lights"], expected);
     let text = folder.text(|f, out| f.args::<InfoArgs>("@scene.xml").run(out));
-    let line = "light               area: 2 primitives, radiance [5.0, 5.0, 5.0], front, area 8\n";
+    let line = "light               area: 2 primitives, radiance [5, 5, 5], front, area 8\n";
     assert!(text.contains(line), "{text}");
     let none = folder.json(|f, out| f.args::<InfoArgs>("@cube.obj --json").run(out));
     assert_eq!(none["lights"], json!([]));

@@ -229,21 +229,23 @@ fn info_lists_the_materials_with_their_textures_and_use() {
     let found = info["material_list"].as_array().expect("a list");
     let expected = json!({
         "name": "tiles", "model": "diffuse", "back": null, "colour": grey, "emission": none,
-        "opacity": 1.0, "maps": maps, "triangles": 0, "shapes": 2
+        "opacity": 1.0, "maps": maps, "triangles": 0, "shapes": 2,
+        "properties": [], "is_two_sided": true
     });
     assert_eq!(found[0], expected);
     assert_eq!(found[1]["name"], "unused");
     assert_eq!(found[1]["shapes"], 0);
     let expected = json!({
         "name": "", "model": "diffuse", "back": "black", "colour": grey, "emission": none,
-        "opacity": 0.25, "maps": [], "triangles": 0, "shapes": 1
+        "opacity": 0.25, "maps": [], "triangles": 0, "shapes": 1,
+        "properties": [], "is_two_sided": false
     });
     assert_eq!(found[2], expected);
     assert_eq!(found.len(), 3);
     let text = folder.text(|f, out| f.args::<InfoArgs>("@scene.xml").run(out));
     for line in [
-        "tiles: diffuse, colour [0.5, 0.5, 0.5], diffuse from checkerboard; 2 shapes",
-        "unused: dielectric, colour [1.0, 1.0, 1.0]; not used",
+        "tiles: diffuse, colour [0.5, 0.5, 0.5], both sides, diffuse from checkerboard; 2 shapes",
+        "unused: dielectric, colour [1, 1, 1]; not used",
         "(no name): diffuse, colour [0.5, 0.5, 0.5], back black, opacity 0.25; 1 shape",
     ] {
         let line = format!("material            {line}\n");

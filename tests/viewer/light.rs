@@ -1,9 +1,10 @@
 //! Tests of views that need lights: their options, noise and limits.
 
 use crate::app::drop_file;
-use crate::harness::{Window, app, app_with, bare_with, in_picture, pointer, wait};
+use crate::harness::{Window, app, app_with, bare_with, in_picture, pointer, settle, wait, write};
 use egui::{Event, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
+use glam::UVec2;
 use hitscope::app::App;
 use hitscope::look::noise_legend;
 use hitscope::settings::{EnvironmentSource, Settings};
@@ -110,7 +111,7 @@ fn at_the_wanted_noise_nothing_is_traced_and_no_frame_is_drawn() {
     std::thread::sleep(Duration::from_millis(500));
     window.step();
     assert_eq!(window.state().film().passes_done(), passes);
-    window.get_by_label_contains(", stopped by noise");
+    window.get_by_label_contains(", stopped at the noise limit");
 }
 
 /// The pixels of the picture on the screen, with the pointer elsewhere: it would show a tooltip or a read-out.
@@ -185,7 +186,7 @@ fn a_dropped_environment_lights_the_scene_and_does_not_replace_it() {
         return;
     };
     wait(&mut window, "the picture", App::is_settled);
-    let name = window.state().document().name().to_owned();
+    let document = window.state().document().name().to_owned();
     let white = window.state().film().pixels().to_vec();
     let sky = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/studio.hdr");
     drop_file(&mut window, sky.clone());
@@ -195,14 +196,136 @@ fn a_dropped_environment_lights_the_scene_and_does_not_replace_it() {
     let app = window.state();
     assert_eq!(app.notice(), None);
     assert_eq!(app.settings().environment, EnvironmentSource::File);
-    assert_eq!(app.settings().environment_file, Some(sky));
-    // One that can't be read is reported, and the light is that of the scene again.
-    drop_file(&mut window, PathBuf::from("none.HDR"));
+    assert_eq!(app.settings().environment_file.as_ref(), Some(&sky));
+    // One that can't be read is reported, and the light stays as it is.
+    let lit = app.film().pixels().to_vec();
+    let folder = tempfile::tempdir().expect("a folder");
+    let broken = folder.path().join("broken.hdr");
+    std::fs::write(&broken, b"#?RADIANCE\n\n-Y 64 +X 64\n").expect("written");
+    for (path, name) in [
+        (PathBuf::from("none.HDR"), "none.HDR"),
+        (broken, "broken.hdr"),
+    ] {
+        drop_file(&mut window, path);
+        wait(&mut window, "the error", |app| {
+            app.notice().is_some_and(|text| text.contains(name))
+        });
+        wait(&mut window, "the picture", App::is_settled);
+        let app = window.state();
+        assert_eq!(app.settings().environment, EnvironmentSource::File);
+        assert_eq!(app.settings().environment_file.as_ref(), Some(&sky));
+        assert!(app.film().pixels() == lit);
+        assert_eq!(app.document().name(), document);
+    }
+}
+
+#[test]
+fn a_kept_environment_that_cannot_be_read_gives_way_to_that_of_the_scene() {
+    let settings = Settings {
+        view: "direct".to_owned(),
+        environment: EnvironmentSource::File,
+        environment_file: Some("none.hdr".into()),
+        ..ambient_occlusion(1)
+    };
+    let Some(mut window) = bare_with(settings) else {
+        return;
+    };
     wait(&mut window, "the error", |app| app.notice().is_some());
-    let app = window.state();
-    assert!(app.notice().is_some_and(|text| text.contains("none.HDR")));
-    assert_eq!(app.settings().environment, EnvironmentSource::Scene);
-    assert_eq!(app.document().name(), name);
+    let settings = window.state().settings();
+    assert_eq!(settings.environment(), EnvironmentSource::Scene);
+    assert_eq!(settings.environment_file, None);
+}
+
+/// A sphere under a constant environment, or without lights.
+fn sphere(folder: &tempfile::TempDir, name: &str, lights: &str) -> PathBuf {
+    let text = format!("<scene version='3.0.0'><shape type='sphere'/>{lights}</scene>");
+    write(folder, name, &text)
+}
+
+#[test]
+fn a_scene_with_an_environment_of_its_own_is_opened_in_it_and_others_in_the_chosen_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let own = sphere(&folder, "own.xml", "<emitter type='constant'/>");
+    let dark = sphere(&folder, "dark.xml", "<emitter type='point'/>");
+    let settings = Settings {
+        view: "direct".to_owned(),
+        environment: EnvironmentSource::Studio,
+        ..ambient_occlusion(1)
+    };
+    let Some(mut window) = bare_with(settings) else {
+        return;
+    };
+    let chosen = |window: &Window| window.state().settings().environment();
+    drop_file(&mut window, own);
+    let told = "This scene has an environment of its own, which is used instead of the studio";
+    wait(&mut window, "the toast", |app| app.toasts() == [told]);
+    settle(&mut window, "own.xml");
+    assert_eq!(chosen(&window), EnvironmentSource::Scene);
+    drop_file(&mut window, dark);
+    settle(&mut window, "dark.xml");
+    assert_eq!(chosen(&window), EnvironmentSource::Studio);
+}
+
+#[test]
+fn another_picture_of_an_environment_is_not_rotated_by_the_angle_of_the_last_one() {
+    let mut settings = Settings::default();
+    settings.keep_environment_file(Path::new("a.hdr"));
+    settings.environment_degrees = 30.0;
+    settings.keep_environment_file(Path::new("a.hdr"));
+    assert_eq!(settings.environment_degrees, 30.0);
+    settings.keep_environment_file(Path::new("b.hdr"));
+    assert_eq!(settings.environment_degrees, 0.0);
+}
+
+#[test]
+fn an_offset_moves_scene_and_camera_while_spawn_policies_are_compared() {
+    let settings = Settings {
+        view: "spawning".to_owned(),
+        spawn_offset: 1e6,
+        ..ambient_occlusion(1)
+    };
+    let Some(mut window) = app_with(settings) else {
+        return;
+    };
+    wait(&mut window, "the offset", |app| {
+        app.document().origin().max_element() < -9e5 && app.is_settled()
+    });
+    let in_file = |app: &App| app.turntable().pivot + app.document().origin();
+    assert!(in_file(window.state()).length() < 1e3);
+    let film = window.state().film();
+    let UVec2 { x, y } = film.size();
+    let mut pixels = (0..y).flat_map(|y| (0..x).map(move |x| UVec2::new(x, y)));
+    assert!(
+        pixels.any(|at| film.shows_surface(at)),
+        "the camera follows"
+    );
+    // Other views show the scene as it is in the file.
+    window.get_by_label("Normal").click();
+    wait(&mut window, "no offset", |app| {
+        app.document().origin().min_element() > -9e5 && app.is_settled()
+    });
+    assert!(in_file(window.state()).length() < 1e3);
+}
+
+#[test]
+fn an_offset_of_a_scene_with_other_shapes_is_refused_with_a_message() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let settings = Settings {
+        view: "spawning".to_owned(),
+        spawn_offset: 1e6,
+        ..ambient_occlusion(1)
+    };
+    let Some(mut window) = bare_with(settings) else {
+        return;
+    };
+    drop_file(&mut window, sphere(&folder, "sphere.xml", ""));
+    wait(&mut window, "the message", |app| {
+        app.toasts()
+            .iter()
+            .any(|text| text.starts_with("Only the coordinates of triangle meshes"))
+    });
+    settle(&mut window, "sphere.xml");
+    assert!(window.state().document().origin().length() < 1e3);
 }
 
 #[test]

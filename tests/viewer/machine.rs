@@ -101,7 +101,7 @@ fn a_lack_of_threads_is_reported_in_one_line() {
 #[test]
 fn a_picture_too_large_for_the_memory_is_reported_in_one_line() {
     let program = Program::new();
-    // 89 bytes for each of 67 million pixels, with a limit of 3 GB.
+    // 105 bytes for each of 67 million pixels, with a limit of 3 GB.
     let ran = program
         .shell("ulimit -v 3000000; exec \"$hitscope\" render good.obj -o out.exr --size 8192x8192");
     let message = "hitscope: there isn't enough memory for a picture of 8192x8192 pixels";
@@ -111,29 +111,29 @@ fn a_picture_too_large_for_the_memory_is_reported_in_one_line() {
 #[test]
 fn the_memory_limit_includes_the_picture_and_refuses_nothing_that_fits() {
     let program = Program::new();
-    // 89 bytes for each of 180 000 pixels: 15.3 MiB.
+    // 105 bytes for each of 180 000 pixels: 18.02 MiB.
     let render = |more: &str| program.run(&format!("render {more} -o out.exr --size 600x300"));
-    assert!(render("good.obj --max-memory 16").status.success());
-    let ran = render("none.obj --max-memory 15");
-    assert_fails(&ran, 2, "error: a picture of 600x300 pixels takes 16 MB");
+    assert!(render("good.obj --max-memory 19").status.success());
+    let ran = render("none.obj --max-memory 18");
+    assert_fails(&ran, 2, "error: a picture of 600x300 pixels takes 19 MB");
     let ran = program
-        .run("render good.obj -o out.png --size 600x300 --depth-map depth.exr --max-memory 15");
-    assert_fails(&ran, 2, "error: a picture of 600x300 pixels takes 16 MB");
-    // The picture that replaces the window: 89 bytes for each of 1280 × 720 pixels, 78.2 MiB.
-    let ran = program.run("good.obj --max-memory 78");
+        .run("render good.obj -o out.png --size 600x300 --depth-map depth.exr --max-memory 18");
+    assert_fails(&ran, 2, "error: a picture of 600x300 pixels takes 19 MB");
+    // The picture that replaces the window: 105 bytes for each of 1280 × 720 pixels, 92.3 MiB.
+    let ran = program.run("good.obj --max-memory 92");
     assert_eq!(ran.status.code(), Some(2), "{}", stderr(&ran));
-    let ran = program.run("good.obj --max-memory 81");
+    let ran = program.run("good.obj --max-memory 95");
     assert_eq!(ran.status.code(), Some(0), "{}", stderr(&ran));
-    // A mesh whose triangles take more than the remaining 0.7 MiB.
-    let vertices: String = (0..8000)
+    // A mesh whose triangles take more than the remaining MiB.
+    let vertices: String = (0..16_000)
         .map(|k| format!("v {k} 0 0\nv {k} 1 {k}\n"))
         .collect();
-    let faces: String = (1..15998)
+    let faces: String = (1..31_998)
         .map(|k| format!("f {k} {} {}\n", k + 1, k + 2))
         .collect();
     program.write("strip.obj", vertices + &faces);
     assert!(render("strip.obj --max-memory 50").status.success());
-    let ran = render("strip.obj --max-memory 16");
+    let ran = render("strip.obj --max-memory 19");
     assert_eq!(ran.status.code(), Some(1), "{}", stderr(&ran));
     assert!(stderr(&ran).contains("--max-memory"), "{}", stderr(&ran));
 }

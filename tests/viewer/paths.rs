@@ -49,6 +49,13 @@ fn another_sample_is_selected_by_a_button() {
     wait(&mut window, "the path", |app| app.path().is_some());
     window.run_steps(2);
     window.get_by_label("of 0 to 3");
+    // One table has all columns.
+    let of_all_columns = |node: &egui_kittest::kittest::AccessKitNode<'_>| {
+        let text = node.value().or(node.label()).unwrap_or_default();
+        let columns = ["primitive", "from lights", "emitted", "throughput"];
+        columns.iter().all(|column| text.contains(column))
+    };
+    window.get_by(of_all_columns);
     let first = window.state().path().expect("a path").clone();
     window.get_by_label("Next").click_accesskit();
     wait(&mut window, "the next path", |app| {

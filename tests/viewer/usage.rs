@@ -70,7 +70,7 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
         ),
         (
             &format!("{render} --view triangle --environment studio"),
-            "it needs --view direct, whitted, path or shading-normal",
+            "it needs --view direct, whitted, path, shading-normal or spawning",
         ),
         (
             &format!("{render} --rotation 400"),

@@ -4,11 +4,13 @@
 //! aren't clamped. Pixels without a sample show the colour of their block from a coarser pass; those of a tile that the
 //! plan hasn't reached keep the colours of the plan before it.
 
+mod noise;
 mod shown;
 mod sum;
 
+pub use noise::{Noise, NoiseSum};
 pub use shown::{ShownPixel, ShownPixels};
-pub use sum::SampleSum;
+pub use sum::{SampleSum, Seen};
 
 use crate::Camera;
 use crate::plan::{Pass, PixelRect, Plan, WorkUnit};
@@ -129,7 +131,7 @@ impl Film {
             }
             self.counts[i] += samples;
             self.shown_step[i] = 0;
-            self.pixels[i] = self.display.encode(self.sums[i].mean(self.counts[i]));
+            self.pixels[i] = self.encoded(i, &self.display);
             if let Pass::Lattice { step } = pass {
                 self.fill_block(pixel, step);
             }
@@ -180,13 +182,13 @@ impl Film {
     }
 
     /// Changes exposure and tone curve, and returns whether they differ from before. All pixels are encoded again, from
-    /// the same samples; those that don't show any yet show the background.
+    /// the same samples; those that don't show any yet show the background, which isn't light: it stays as it is.
     pub fn set_display(&mut self, display: Display) -> bool {
         if display == self.display {
             return false;
         }
         self.display = display;
-        let background = display.encode(self.background);
+        let background = Display::default().encode(self.background);
         for tile in 0..self.tiles.len() {
             let rect = self.plan.tile_rect(tile);
             let state = &mut self.tiles[tile];
@@ -196,17 +198,41 @@ impl Film {
             }
             for y in rect.min.y..rect.max.y {
                 for i in self.row(rect, y) {
-                    let step =
-                        Some(self.shown_step[i]).filter(|&step| has_samples && step != u8::MAX);
-                    let shown = step.map(|step| self.shown_index(i, step.into()));
-                    // A pixel that represents a block has a sample.
-                    self.pixels[i] = shown.map_or(background, |shown| {
-                        display.encode(self.sums[shown].mean(self.counts[shown].max(1)))
-                    });
+                    self.pixels[i] = self
+                        .shown_at(i, has_samples, &display)
+                        .unwrap_or(background);
                 }
             }
         }
         true
+    }
+
+    /// The colour of a pixel with other exposure and tone curve than the film's; `None` if it doesn't show samples of the
+    /// plan.
+    ///
+    /// # Panics
+    /// If the pixel lies outside of the picture.
+    pub fn shown(&self, pixel: UVec2, display: &Display) -> Option<[u8; 4]> {
+        let has_samples = self.tiles[self.plan.tile_of(pixel)].has_samples;
+        self.shown_at(self.index(pixel), has_samples, display)
+    }
+
+    /// `has_samples` tells whether the pixel's tile has samples of the plan.
+    fn shown_at(&self, i: usize, has_samples: bool, display: &Display) -> Option<[u8; 4]> {
+        let step = Some(self.shown_step[i]).filter(|&step| has_samples && step != u8::MAX)?;
+        // A pixel that represents a block has a sample.
+        Some(self.encoded(self.shown_index(i, step.into()), display))
+    }
+
+    /// The colour of a pixel's samples.
+    fn encoded(&self, i: usize, display: &Display) -> [u8; 4] {
+        let (sum, count) = (&self.sums[i], self.counts[i].max(1));
+        let part = sum.background_part(count);
+        if part == 0.0 || *display == Display::default() {
+            return display.encode(sum.mean(count));
+        }
+        let light = sum.mean(count) - part * self.background;
+        display.encode_over(light, part, self.background)
     }
 
     /// The index of the pixel whose samples a pixel shows.
@@ -256,6 +282,15 @@ impl Film {
     pub fn standard_error(&self, pixel: UVec2) -> Option<f64> {
         let (sum, count) = self.samples_of(pixel);
         (count > 1).then(|| (sum.variance(count) / f64::from(count)).sqrt())
+    }
+
+    /// Whether some sample of a pixel shows a surface.
+    ///
+    /// # Panics
+    /// If the pixel lies outside of the picture.
+    pub fn shows_surface(&self, pixel: UVec2) -> bool {
+        let (sum, count) = self.samples_of(pixel);
+        sum.shows_surface(count)
     }
 
     /// Number of samples of a pixel.

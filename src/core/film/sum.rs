@@ -3,6 +3,17 @@
 use crate::srgb::luminance_f64;
 use glam::{DVec3, Vec3};
 
+/// What a sample shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Seen {
+    /// A surface.
+    Surface,
+    /// Light from infinitely far away.
+    Environment,
+    /// The background, which isn't light.
+    Background,
+}
+
 /// The sum of a pixel's samples. The order in which samples are added doesn't matter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SampleSum {
@@ -10,6 +21,10 @@ pub struct SampleSum {
     rgb: [u128; 3],
     /// Squared luminance, for the variance.
     square: SquareSum,
+    /// Number of samples that show no surface.
+    misses: u32,
+    /// Number of samples that show the background.
+    backgrounds: u32,
 }
 
 /// Binary digits of a [`SampleSum`] after the point.
@@ -42,8 +57,16 @@ impl SampleSum {
         self.merge(&Self {
             rgb,
             square: SquareSum::new(luminance * luminance),
+            ..Self::default()
         });
         true
+    }
+
+    /// The same for a sample of something other than a surface, too.
+    pub fn add_seen(&mut self, radiance: Vec3, seen: Seen) -> bool {
+        self.misses += u32::from(seen != Seen::Surface);
+        self.backgrounds += u32::from(seen == Seen::Background);
+        self.add(radiance)
     }
 
     /// Adds another sum.
@@ -52,6 +75,18 @@ impl SampleSum {
             *sum = sum.saturating_add(part);
         }
         self.square.merge(other.square);
+        self.misses += other.misses;
+        self.backgrounds += other.backgrounds;
+    }
+
+    /// Whether some of `count` samples shows a surface.
+    pub(super) fn shows_surface(&self, count: u32) -> bool {
+        self.misses < count
+    }
+
+    /// The part of `count` samples that shows the background.
+    pub(super) fn background_part(&self, count: u32) -> f32 {
+        self.backgrounds as f32 / count as f32
     }
 
     /// The mean of `count` samples.

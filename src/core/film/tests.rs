@@ -33,7 +33,55 @@ fn a_changed_display_gives_the_pixels_of_a_film_that_had_it_from_the_start() {
     // A restart keeps the display.
     with.restart(Plan::new(UVec2::ONE, 1, 1), background);
     assert_eq!(with.display(), display);
-    assert_eq!(with.pixels(), [display.encode(background)]);
+    assert_eq!(with.pixels(), [Display::default().encode(background)]);
+}
+
+#[test]
+fn exposure_and_tone_curve_change_light_and_not_the_background() {
+    let background = Vec3::new(0.1, 0.2, 0.3);
+    let (grey, display) = (
+        Vec3::splat(0.125),
+        Display::new(1.0, crate::tone::TONE_CURVES[0]),
+    );
+    // From the left: background, both, light.
+    let shows = [
+        [Seen::Background; 2],
+        [Seen::Background, Seen::Surface],
+        [Seen::Surface; 2],
+    ];
+    let plan = Plan::new(UVec2::new(3, 1), 1, 2);
+    let mut film = Film::new(plan.clone(), background);
+    for unit in (0..plan.unit_count()).map(|k| plan.unit(k)) {
+        let sum_of = |pixel: UVec2| {
+            let mut sum = SampleSum::default();
+            for k in plan.pass(unit.pass).samples() {
+                let seen = shows[pixel.x as usize][k as usize];
+                let colour = if seen == Seen::Surface {
+                    grey
+                } else {
+                    background
+                };
+                assert!(sum.add_seen(colour, seen));
+            }
+            sum
+        };
+        let sums = plan.pixels(unit).map(sum_of).collect();
+        film.add(&TileSamples { unit, sums });
+    }
+    let plain = Display::default();
+    let both = |light: Vec3| plain.encode(0.5 * (background + light));
+    assert_eq!(
+        film.pixels(),
+        [plain.encode(background), both(grey), plain.encode(grey)]
+    );
+    film.set_display(display);
+    let lit = 2.0 * grey;
+    assert_eq!(
+        film.pixels(),
+        [plain.encode(background), both(lit), plain.encode(lit)]
+    );
+    let surfaces = [0, 1, 2].map(|x| film.shows_surface(UVec2::new(x, 0)));
+    assert_eq!(surfaces, [false, true, true]);
 }
 
 #[test]

@@ -31,6 +31,7 @@ pub use options::{ScaleOptions, SurfaceColours, ViewOptions, back_face_colour};
 pub use record::{PathEnd, PathRecord, PathVertex, ShadowRay};
 
 use crate::camera::Camera;
+use crate::film::Seen;
 use crate::intersector::Intersector;
 use crate::kernel::{KernelChoice, exact_triangle_kernel};
 use crate::light::Lights;
@@ -132,6 +133,8 @@ pub struct Sample {
     pub sampler: Sampler,
     /// The colour in linear RGB; black until [`Integrator::radiances`] sets it.
     pub radiance: Vec3,
+    /// What it shows. Without a hit that is the background, until a view with an environment sets it.
+    pub seen: Seen,
 }
 
 impl Sample {
@@ -142,6 +145,11 @@ impl Sample {
             hit,
             sampler,
             radiance: Vec3::ZERO,
+            seen: if hit.is_some() {
+                Seen::Surface
+            } else {
+                Seen::Background
+            },
         }
     }
 }
@@ -311,7 +319,7 @@ impl Integrator {
         };
         self.colour(context, samples);
         for (sample, _) in samples.iter_mut().zip(transparent).filter(|(_, is)| *is) {
-            sample.radiance = Vec3::ZERO;
+            (sample.radiance, sample.seen) = (Vec3::ZERO, Seen::Background);
         }
     }
 

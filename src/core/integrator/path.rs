@@ -5,9 +5,10 @@
 
 use super::hidden_emitters::past_emitters;
 use super::record::{PathEnd, Recorder};
-use super::transport::{ShadingPoint, emitted, from_afar, shows_background};
+use super::transport::{ShadingPoint, emitted, from_afar, seen};
 use super::visibility::transmittances;
 use super::{Context, Integrator, Needs, Sample, Source};
+use crate::film::Seen;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use glam::Vec3;
@@ -42,7 +43,8 @@ pub(super) fn follow_all(context: &Context, samples: &mut [Sample], limit: Optio
     let mut paths = Vec::with_capacity(samples.len());
     for sample in samples {
         past_emitters(context, &mut sample.ray, &mut sample.hit, &mut ());
-        if shows_background(context, sample.hit) {
+        sample.seen = seen(context, sample.hit);
+        if sample.seen == Seen::Background {
             sample.radiance = context.background;
         } else {
             paths.push(Path::new(sample));
@@ -60,7 +62,8 @@ pub(super) fn follow_recorded(
     recorder: &mut impl Recorder,
 ) {
     past_emitters(context, &mut sample.ray, &mut sample.hit, recorder);
-    if shows_background(context, sample.hit) {
+    sample.seen = seen(context, sample.hit);
+    if sample.seen == Seen::Background {
         recorder.escape(context.background);
         recorder.end(PathEnd::Left, &sample.ray);
         sample.radiance = context.background;

@@ -1,47 +1,57 @@
-//! The view *Spawn policies*: where two policies disagree about what a ray that leaves the surface meets.
+//! The view *Spawn policies*: where the direct light of the picture differs between two policies.
+//!
+//! Both pictures have the same random numbers. Direct light differs where a policy lets a surface shadow itself, or lets
+//! light through a surface that it touches.
 
 use super::palette::{FALSE_HIT, MISSED, decision, named};
-use super::transport::ShadingPoint;
-use super::{Context, Integrator, Legend, Needs, Setting, Source};
-use crate::ray::{Hit, Ray};
-use crate::sampler::Sampler;
-use crate::spawn::SpawnPolicy;
-use glam::Vec3;
+use super::path::follow_all;
+use super::{Context, Integrator, Legend, Lighting, Needs, Sample, Setting, Source};
+use crate::film::Seen;
+use crate::srgb::luminance;
 
 /// The row of the view.
 pub(super) static SPAWNING: Integrator = Integrator {
     name: "spawning",
     title: "Spawn policies",
-    about: "Where rays that leave the surface by the chosen policy are blocked and those by the second one aren't, or the other way round.",
+    about: "Where direct light is darker by the chosen policy than by the second one, because a surface shadows itself, or brighter, because light leaks through a surface.",
     needs: Needs {
-        settings: &[Setting::Spawn, Setting::SecondSpawn],
+        settings: &[
+            Setting::Lights,
+            Setting::Spawn,
+            Setting::SecondSpawn,
+            Setting::Terminator,
+        ],
         ..Needs::LIGHTS
     },
     legend,
-    source: Source::Colour(radiance),
+    source: Source::Batch(radiances),
 };
 
-fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {
-    let Some(hit) = hit else {
-        return context.background;
-    };
-    let point = ShadingPoint::unrepaired(context, ray, hit);
-    let Some(dir) = point.open_direction(sampler) else {
-        return Vec3::splat(0.02);
-    };
-    let is_blocked = |policy: &SpawnPolicy| {
-        let ray = point.spawn_by(policy, dir);
-        ray.is_some_and(|ray| context.intersector.any_hit(&ray))
-    };
+fn radiances(context: &Context, samples: &mut [Sample]) {
     let lighting = &context.lighting;
-    let first = is_blocked(lighting.spawn);
-    let second = is_blocked(lighting.second_spawn);
-    decision(first, second, !first)
+    let other = Context {
+        lighting: Lighting {
+            spawn: lighting.second_spawn,
+            ..lighting.clone()
+        },
+        ..context.clone()
+    };
+    let mut others = samples.to_vec();
+    follow_all(context, samples, Some(1));
+    follow_all(&other, &mut others, Some(1));
+    for (sample, other) in samples.iter_mut().zip(&others) {
+        if sample.seen != Seen::Surface {
+            sample.radiance = context.background;
+            continue;
+        }
+        let [first, second] = [sample.radiance, other.radiance].map(luminance);
+        sample.radiance = decision(first < second, first > second, first > 0.0);
+    }
 }
 
 fn legend() -> Legend {
     vec![vec![
-        named(FALSE_HIT, "only the chosen one is blocked"),
-        named(MISSED, "only the second one is blocked"),
+        named(FALSE_HIT, "darker by the chosen one"),
+        named(MISSED, "brighter by the chosen one"),
     ]]
 }

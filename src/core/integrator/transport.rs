@@ -4,6 +4,7 @@ use super::Context;
 use super::offset::offset_by;
 use crate::appearance::Appearance;
 use crate::bsdf::{Bsdf, Frame, Model, Scatter, Scattered, cosine_direction};
+use crate::film::Seen;
 use crate::interaction::SurfaceInteraction;
 use crate::light::LightSample;
 use crate::ray::{Hit, Ray};
@@ -156,12 +157,6 @@ impl<'a> ShadingPoint<'a> {
     #[inline(always)]
     pub fn spawn(&self, dir: Vec3) -> Option<Ray> {
         self.start(dir).towards(dir).ok()
-    }
-
-    /// The same by another policy.
-    #[inline]
-    pub fn spawn_by(&self, policy: &SpawnPolicy, dir: Vec3) -> Option<Ray> {
-        policy.spawn(&self.departure(policy, dir)).ok()
     }
 
     /// The ray that continues behind the surface.
@@ -354,10 +349,16 @@ pub(super) fn balance(own: f32, other: f32) -> f32 {
 /// The part of light below which a ray isn't followed: half a step of 8 bits.
 pub(super) const INVISIBLE: f32 = 1.0 / 512.0;
 
-/// Whether a camera's ray shows the background: it hits nothing, and no environment is visible.
-pub(super) fn shows_background(context: &Context, hit: Option<Hit>) -> bool {
+/// What a camera's ray with this first hit shows: the background if it hits nothing and no environment is visible.
+pub(super) fn seen(context: &Context, hit: Option<Hit>) -> Seen {
     let lighting = &context.lighting;
-    hit.is_none() && (lighting.hides_emitters || lighting.lights.environment().is_none())
+    if hit.is_some() {
+        Seen::Surface
+    } else if lighting.hides_emitters || lighting.lights.environment().is_none() {
+        Seen::Background
+    } else {
+        Seen::Environment
+    }
 }
 
 /// The light of a ray that hits nothing. `scattered_with` is the density of its direction, `None` for single directions

@@ -6,9 +6,10 @@
 
 use super::hidden_emitters::past_emitters;
 use super::path::follow_scattered;
-use super::transport::{Connection, INVISIBLE, ShadingPoint, emitted, from_afar, shows_background};
+use super::transport::{Connection, INVISIBLE, ShadingPoint, emitted, from_afar, seen};
 use super::visibility::transmittance;
-use super::{Context, Integrator, Needs, Source};
+use super::{Context, Integrator, Needs, Sample, Source};
+use crate::film::Seen;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use glam::Vec3;
@@ -20,7 +21,7 @@ pub(super) static WHITTED: Integrator = Integrator {
     about: "Direct light, and mirrors and glass, both of whose rays are followed. Light by way of matt and rough surfaces is missing.",
     needs: Needs::PATHS,
     legend: Vec::new,
-    source: Source::Colour(radiance),
+    source: Source::Batch(radiances),
 };
 
 /// The most surfaces on a branch, which ends branches between mirrors and in total reflection. As surfaces scatter no more
@@ -52,12 +53,19 @@ impl Branch {
     }
 }
 
-fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {
-    let (mut ray, mut hit) = (*ray, hit);
-    past_emitters(context, &mut ray, &mut hit, &mut ());
-    if shows_background(context, hit) {
-        return context.background;
+fn radiances(context: &Context, samples: &mut [Sample]) {
+    for sample in samples {
+        let (mut ray, mut hit) = (sample.ray, sample.hit);
+        past_emitters(context, &mut ray, &mut hit, &mut ());
+        sample.seen = seen(context, hit);
+        sample.radiance = match sample.seen {
+            Seen::Background => context.background,
+            _ => radiance(context, ray, hit, &mut sample.sampler),
+        };
     }
+}
+
+fn radiance(context: &Context, ray: Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {
     let limit = context.lighting.depth_limit.unwrap_or(MOST_SURFACES);
     let limit = limit.min(MOST_SURFACES);
     let mut light = Vec3::ZERO;

@@ -25,7 +25,7 @@ use crate::scene::Scene;
 use crate::spawn::SpawnPolicy;
 use crate::srgb::luminance;
 use area::Emitters;
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 
 /// A light that is sampled.
@@ -226,6 +226,18 @@ fn radius_for_power(scene: &Scene) -> f64 {
 }
 
 impl Light {
+    /// The same light in a scene whose coordinates are larger by an offset. Primitives that emit light move with the scene.
+    #[must_use]
+    pub fn moved(self, offset: DVec3) -> Self {
+        match self {
+            Self::Point(light) => Self::Point(PointLight {
+                position: (light.position.as_dvec3() + offset).as_vec3(),
+                ..light
+            }),
+            other => other,
+        }
+    }
+
     /// About the power that lights a scene of this radius, up to a factor that all lights have in common.
     fn power(&self, radius: f64) -> Vec3 {
         match self {

@@ -235,7 +235,7 @@ impl Contents {
 
     /// The index of a shape's material; `None` for none, or for those of an OBJ file.
     fn material(&mut self, file: &SceneFile, shape: &Shape) -> Option<u32> {
-        // The first material stands for none.
+        // The first material is that of shapes without a `bsdf`.
         let material = shape.material.map(|material| material + 1);
         match shape.emitter.as_ref().map(|emitter| &emitter.kind) {
             Some(EmitterKind::Area { radiance, texture }) => {

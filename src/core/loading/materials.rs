@@ -11,12 +11,24 @@ use crate::mesh::{
 use crate::scene_file::{self, Bsdf, Form, Roughness, SceneFile};
 use glam::Vec3;
 
-/// The materials of a scene file; the first stands for none.
+/// The materials of a scene file; the first is that of shapes without a `bsdf`.
 pub(super) fn materials(file: &SceneFile, textures: &Textures) -> Vec<Material> {
-    let none = std::iter::once(Material::default());
+    let default = std::iter::once(without_bsdf());
     let described = file.materials.iter();
-    none.chain(described.map(|described| material(described, textures)))
+    default
+        .chain(described.map(|described| material(described, textures)))
         .collect()
+}
+
+/// The material of a shape without a `bsdf`: Mitsuba's default, which is black from behind.
+pub(super) fn without_bsdf() -> Material {
+    let front = Side::from(bsdf(&Bsdf::GREY));
+    Material {
+        diffuse: Some(front.bsdf.colour()),
+        illumination: Illumination::Diffuse,
+        sides: Some(Box::new(Sides { front, back: None })),
+        ..Material::default()
+    }
 }
 
 fn material(material: &scene_file::Material, textures: &Textures) -> Material {

@@ -1,5 +1,6 @@
 //! All meshes of a scene as one, in the coordinates of the world.
 
+use super::materials::without_bsdf;
 use super::memory::Needs;
 use super::placed::{is_large_enough, is_mirroring};
 use crate::mesh::{
@@ -269,7 +270,7 @@ impl Merged {
     }
 
     /// The index at which the materials of a mesh's file begin. They and the textures are appended once, for all parts
-    /// with the mesh.
+    /// with the mesh. A file with neither materials nor colours has the material of shapes without a `bsdf`.
     fn own_materials(&mut self, mesh: &Arc<TriangleMesh>) -> u32 {
         let next = self.materials.len() as u32;
         let first = *self.of_meshes.entry(Arc::as_ptr(mesh)).or_insert(next);
@@ -281,7 +282,11 @@ impl Merged {
 
     fn append_materials(&mut self, attributes: &Attributes) {
         if attributes.materials.entries().is_empty() {
-            self.materials.push(Material::default());
+            let has_colours = !attributes.colours.is_empty();
+            self.materials.push(match has_colours {
+                true => Material::default(),
+                false => without_bsdf(),
+            });
         }
         let first_texture = self.textures.len() as u32;
         self.textures.extend_from_slice(&attributes.textures);

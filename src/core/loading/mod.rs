@@ -35,6 +35,7 @@ use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Warning};
 use crate::progress::{BackgroundError, Cancelled, Progress};
 use crate::scene::{Scene, SceneOptions};
 use crate::scene_file::{self, SceneFile};
+use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -87,6 +88,18 @@ impl LoadedScene {
                     },
                 })
             })
+    }
+
+    /// The scene and its lights in coordinates that are larger by an offset; `None` if it can't be moved. See
+    /// [`Scene::moved`].
+    pub fn moved(&self, offset: DVec3) -> Option<Self> {
+        let scene = Arc::new(self.scene.moved(offset)?);
+        let lights = self.lights.iter().cloned();
+        Some(Self {
+            scene,
+            lights: lights.map(|light| light.moved(offset)).collect(),
+            ..self.clone()
+        })
     }
 
     /// Builds the tree over a mesh.

@@ -195,7 +195,8 @@ impl SampleBatch<'_> {
         });
         self.hits += hits;
         for (place, sample) in self.places.drain(..).zip(samples) {
-            self.non_finite += u32::from(!self.sums[place.sum].add(sample.radiance));
+            self.non_finite +=
+                u32::from(!self.sums[place.sum].add_seen(sample.radiance, sample.seen));
         }
     }
 }

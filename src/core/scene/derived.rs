@@ -6,7 +6,7 @@ use crate::intersector::{Clipped, Intersector};
 use crate::mesh::{Crease, TriangleMesh};
 use crate::progress::Progress;
 use crate::ray::Ray;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
 impl Scene {
@@ -130,6 +130,33 @@ impl Scene {
             .as_ref()
             .map(|clip| clip.moved(self.mesh.origin()));
         Some(scene.with_clip(clip.transpose().ok()?))
+    }
+
+    /// The same triangles in coordinates that are larger by an offset, to which each position is rounded, so that the
+    /// rounding of hits becomes visible. Places in the file stay the same but for this rounding. Triangles whose corners
+    /// coincide then stay in the list; no ray hits them. `None` if there are other shapes, a clip or hidden triangles, or if
+    /// a position would be infinite.
+    pub fn moved(&self, offset: DVec3) -> Option<Self> {
+        let is_whole = self.clip.is_none() && self.hidden.is_none();
+        if self.has_other_shapes() || !is_whole {
+            return None;
+        }
+        let moved = |p: &Vec3| (p.as_dvec3() + offset).as_vec3();
+        let positions: Vec<Vec3> = self.mesh.positions().iter().map(moved).collect();
+        let corners = self.mesh.triangles().as_flattened().iter();
+        let mut in_use = corners.map(|&vertex| positions[vertex as usize]);
+        if !in_use.all(|p| p.is_finite()) {
+            return None;
+        }
+        let mesh = TriangleMesh::new_unchecked(positions, self.mesh.triangles().to_vec())
+            .with_origin(self.mesh.origin() - offset)
+            .with_attributes(self.mesh.attributes().clone());
+        let options = SceneOptions {
+            packing: self.packing,
+            ..SceneOptions::default()
+        };
+        let scene = Self::with_options(mesh, options, &Progress::default());
+        Some(scene.expect("nobody cancels").with_crease(self.crease))
     }
 
     /// The groups of shapes other than triangles, as a scene of their own, with this clip.

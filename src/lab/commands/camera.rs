@@ -9,7 +9,7 @@ use hitscope_core::camera::{CameraError, MAX_SIDE, Projection, Turntable, UpAxis
 use hitscope_core::loading::{StartView, is_scene_file};
 use hitscope_core::mesh::ElementPlace;
 use hitscope_core::obj::shown;
-use hitscope_core::{Camera, Scene};
+use hitscope_core::{Aabb, Camera, Scene};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -114,8 +114,11 @@ impl CameraArgs {
         if let Ok(Some(viewpoint)) = self.viewpoint() {
             return viewpoint.up_axis();
         }
-        let of_file = view.filter(|_| self.eye.is_none()).map(|view| view.up);
-        UpAxis::nearest(self.up.or(of_file).unwrap_or(DVec3::Y))
+        match (self.up, view) {
+            (Some(up), _) => UpAxis::nearest(up),
+            (None, Some(view)) if self.eye.is_none() => level_axis(view),
+            _ => UpAxis::Y,
+        }
     }
 
     /// The camera that looks at a place of the scene: from the given eye, or else along the usual direction and so that the
@@ -173,6 +176,14 @@ impl CameraArgs {
             },
         }
     }
+}
+
+/// The axis about which the window turns a file's view.
+fn level_axis(view: &StartView) -> UpAxis {
+    let axes = [DVec3::ZERO, view.forward, view.up];
+    let projection = view.projection_in(view.size);
+    let turntable = Turntable::looking_level(axes, projection, UpAxis::Y, Aabb::EMPTY);
+    turntable.map_or(UpAxis::Y, |turntable| turntable.up_axis)
 }
 
 /// The camera that frames a place as seen by another camera, whose height it keeps if that is given.
@@ -287,7 +298,7 @@ fn parse_height(text: &str) -> Result<f64, String> {
 }
 
 /// `1,-2.5,3e4`.
-fn parse_vector(text: &str) -> Result<DVec3, String> {
+pub(super) fn parse_vector(text: &str) -> Result<DVec3, String> {
     let expected = "expected three numbers separated by commas, as in 1,-2.5,3";
     numbers(text, expected).map(DVec3::from_array)
 }

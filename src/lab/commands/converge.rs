@@ -13,8 +13,9 @@ use crate::measure::convergence::{
 use crate::progress::{Meter, ProgressBar};
 use crate::report;
 use clap::Args;
-use hitscope_core::integrator::{Context, Setting, ViewOptions, integrator};
-use hitscope_core::spawn::spawn_policy;
+use hitscope_core::integrator::{Context, INTEGRATORS, Setting, ViewOptions, integrator};
+use hitscope_core::names::alternatives;
+use hitscope_core::spawn::{SPAWN_POLICIES, spawn_policy};
 use hitscope_core::srgb::from_display;
 use serde_json::{Value, json};
 use std::io::Write;
@@ -131,7 +132,8 @@ impl ConvergeArgs {
         let mut loaded = self.scene.load()?;
         loaded.scene = self.clip.apply(loaded.scene)?;
         let scene = &loaded.scene;
-        let camera = self.camera.camera(scene, loaded.view.as_ref())?;
+        let view = loaded.view.as_ref();
+        let (camera, up_axis) = (self.camera.camera(scene, view)?, self.camera.up_axis(view));
         let intersector = self.scene.intersector(scene);
         let memory = self.scene.mesh.memory;
         let size = camera.resolution();
@@ -150,7 +152,9 @@ impl ConvergeArgs {
             camera,
             shading: self.scene.shading.into(),
             background: from_display(DARK_BACKGROUND),
-            lighting: self.light.lighting(&loaded, &camera, memory.bytes())?,
+            lighting: self
+                .light
+                .lighting(&loaded, (&camera, up_axis), memory.bytes())?,
             options: ViewOptions::default(),
         })
     }
@@ -161,7 +165,7 @@ impl ConvergeArgs {
         let mut words = text.split(',');
         let name = words.next().unwrap_or_default();
         let view = integrator(name).filter(|view| view.needs.uses(Setting::Exposure));
-        let view = view.ok_or_else(|| refuse(format!("“{name}” isn't a view of light")))?;
+        let view = view.ok_or_else(|| refuse(not_a_view_of_light(name)))?;
         let mut setting = LightSetting {
             name: text.to_owned(),
             view,
@@ -170,16 +174,24 @@ impl ConvergeArgs {
             depth: None,
         };
         for word in words {
-            let unknown = || refuse(format!("“{word}” is unknown"));
+            let unknown = || {
+                refuse(format!(
+                    "“{word}” is none of depth=N, spawn=POLICY and kernel=KERNEL"
+                ))
+            };
             match word.split_once('=').ok_or_else(unknown)? {
                 ("depth", depth) if view.needs.uses(Setting::Depth) => {
-                    setting.depth = Some(depth.parse().map_err(|_| unknown())?);
+                    let wrong = |_| refuse(format!("depth is a whole number, not “{depth}”"));
+                    setting.depth = Some(depth.parse().map_err(wrong)?);
                 }
                 ("depth", _) => {
                     return Err(refuse(format!("depth has no effect on the view “{name}”")));
                 }
                 ("spawn", policy) => {
-                    setting.spawn = Some(spawn_policy(policy).ok_or_else(unknown)?);
+                    let names: Vec<&str> = SPAWN_POLICIES.iter().map(|p| p.name).collect();
+                    let names = alternatives(&names);
+                    let wrong = || refuse(format!("spawn is {names}, not “{policy}”"));
+                    setting.spawn = Some(spawn_policy(policy).ok_or_else(wrong)?);
                 }
                 ("kernel", kernel) => {
                     let refused = |why| refuse(format!("“{word}”: {why}"));
@@ -241,5 +253,18 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if seconds > 0.0 && seconds.is_finite() => Ok(seconds),
         _ => Err("expected seconds above 0".to_owned()),
+    }
+}
+
+/// Why a setting can't begin with a name.
+fn not_a_view_of_light(name: &str) -> String {
+    let with_light = INTEGRATORS
+        .iter()
+        .filter(|view| view.needs.uses(Setting::Exposure));
+    let names: Vec<&str> = with_light.map(|view| view.name).collect();
+    let names = alternatives(&names);
+    match integrator(name) {
+        Some(_) => format!("the colours of “{name}” aren't light; expected {names}"),
+        None => format!("there is no view “{name}”; expected {names}"),
     }
 }

@@ -31,8 +31,11 @@ impl DisplayArgs {
         refuse_without_effect(views, &given)
     }
 
-    /// Exposure and tone curve.
-    pub fn display(&self) -> Display {
+    /// Exposure and tone curve of a view, which are none unless its colours are light.
+    pub fn display(&self, view: &Integrator) -> Display {
+        if !view.needs.uses(Setting::Exposure) {
+            return Display::default();
+        }
         let curve = self.tone.as_deref().map_or(TONE_CURVES[0], |name| {
             tone_curve(name).expect("clap accepts only names in the table")
         });

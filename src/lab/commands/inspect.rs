@@ -58,8 +58,10 @@ Values, in the text and in JSON:
                      the file
   path               of a sample, with --view or --sample: the surfaces that it
                      meets, and the light in linear RGB that each adds to the
-                     sample's colour, emitted there (emission) or scattered
-                     straight from a light (direct). throughput is the part of
+                     sample's radiance, emitted there (emission) or scattered
+                     straight from a light (direct). from_afar is the light of
+                     the environment, or the background, at the end of the
+                     path. throughput is the part of
                      further light that reaches the camera; arriving, the part
                      of the light that surfaces let pass; survival, the
                      probability with which Russian roulette let the path go
@@ -134,14 +136,15 @@ impl InspectArgs {
         self.check_pixel(camera.resolution())?;
         let intersector = self.scene.intersector(scene);
         let shading = self.scene.shading.into();
+        let up_axis = self.camera.up_axis(loaded.view.as_ref());
         let pixel = self.pixel.unwrap_or(camera.resolution() / 2);
         let mut inspection = Inspection::of_pixel(scene, &*intersector, shading, &camera, pixel);
         inspection.thickness = self.thickness.report(scene, &camera, pixel);
         inspection.find_line(&loaded.report.face_lines);
         let for_path = (pixel, self.scene.mesh.memory.bytes());
-        inspection.path = self
-            .path
-            .report(&loaded, intersector, &camera, shading, for_path)?;
+        inspection.path =
+            self.path
+                .report(&loaded, intersector, (&camera, up_axis), shading, for_path)?;
         if self.json {
             writeln!(out, "{}", inspection.to_json())?;
         } else {

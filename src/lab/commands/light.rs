@@ -1,23 +1,21 @@
 //! Options of light, and the lights of a picture.
 
 use super::CommandError;
-use super::stderr::print_line;
+use super::environment::{
+    EnvironmentSource, load_map, parse_environment, parse_rotation, parse_up_axis, turn,
+};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
-use glam::{DVec3, Vec3};
-use hitscope_core::brightness::check_brightness;
+use hitscope_core::camera::UpAxis;
 use hitscope_core::integrator::{INTEGRATORS, Integrator, Lighting, Setting};
 use hitscope_core::light::{
-    Environment, EnvironmentMap, Light, Lights, LoadedMap, MapPlacement, PlacedMap, studio,
+    Environment, EnvironmentMap, Light, Lights, MapPlacement, PlacedMap, studio,
 };
 use hitscope_core::loading::LoadedScene;
-use hitscope_core::names::{alternatives, nearest};
-use hitscope_core::obj::shown;
-use hitscope_core::progress::Progress;
+use hitscope_core::names::alternatives;
 use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy, spawn_policy};
 use hitscope_core::terminator::{TERMINATOR_REPAIRS, terminator_repair};
 use hitscope_core::{Camera, Scene};
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Options of light
@@ -28,6 +26,10 @@ pub struct LightArgs {
     /// studio [default: the scene file's; constant:1,1,1 if nothing emits light]
     #[arg(long, value_name = "FILE|constant:R,G,B|studio|built-in", value_parser = parse_environment)]
     pub environment: Option<EnvironmentSource>,
+    /// Axis that points up in the environment's picture; that of a scene file stands as its to_world says
+    /// [default: the one that points up in the picture]
+    #[arg(long, value_name = "y|z", value_parser = parse_up_axis)]
+    pub environment_up: Option<UpAxis>,
     /// Turn the environment's picture about its vertical axis, counter-clockwise as seen from above
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = parse_rotation)]
     pub rotation: Option<f32>,
@@ -50,25 +52,13 @@ pub struct LightArgs {
     pub terminator: Option<String>,
 }
 
-/// Where light from all directions comes from.
-#[derive(Clone, Debug, PartialEq)]
-pub enum EnvironmentSource {
-    /// The lamps of the view *Shaded*.
-    Studio,
-    /// The same radiance from all directions.
-    Constant(Vec3),
-    /// The built-in picture of a studio.
-    BuiltIn,
-    /// A picture of all directions.
-    File(PathBuf),
-}
-
 impl LightArgs {
     /// The options that are given, with the setting that each of them changes.
-    fn given(&self) -> [(&'static str, bool, Setting); 7] {
+    fn given(&self) -> [(&'static str, bool, Setting); 8] {
         use Setting::{Depth, Lights, OcclusionDistance, SecondSpawn, Spawn, Terminator};
         [
             ("--environment", self.environment.is_some(), Lights),
+            ("--environment-up", self.environment_up.is_some(), Lights),
             ("--rotation", self.rotation.is_some(), Lights),
             ("--spawn", self.spawn.is_some(), Spawn),
             ("--second-spawn", self.second_spawn.is_some(), SecondSpawn),
@@ -102,6 +92,15 @@ impl LightArgs {
     /// [`CommandError::Usage`].
     pub fn check(&self, views: &[&Integrator]) -> Result<(), CommandError> {
         refuse_without_effect(views, &self.given())?;
+        let has_picture = matches!(
+            self.environment,
+            Some(EnvironmentSource::BuiltIn | EnvironmentSource::File(_))
+        );
+        if self.environment_up.is_some() && !has_picture {
+            let message =
+                "--environment-up has no effect: it needs a picture, as in --environment FILE";
+            return Err(CommandError::Usage(message.to_owned()));
+        }
         let is_even = matches!(
             self.environment,
             Some(EnvironmentSource::Studio | EnvironmentSource::Constant(_))
@@ -113,24 +112,31 @@ impl LightArgs {
         Ok(())
     }
 
-    /// What light transport depends on in a picture of a scene. A picture of an environment may take `max_memory` bytes.
+    /// What light transport depends on in a picture of a scene in which an axis points up. A picture of an environment may
+    /// take `max_memory` bytes.
     ///
     /// # Errors
     /// See [`load`](Self::load).
     pub fn lighting(
         &self,
         loaded: &LoadedScene,
-        camera: &Camera,
+        (camera, up_axis): (&Camera, UpAxis),
         max_memory: u64,
     ) -> Result<Lighting, CommandError> {
-        Ok(self.load(loaded, max_memory)?.seen_by(camera))
+        Ok(self.load(loaded, up_axis, max_memory)?.seen_by(camera))
     }
 
-    /// The light of a scene, for any camera. A picture of an environment may take `max_memory` bytes.
+    /// The light of a scene in whose pictures an axis points up, for any camera. A picture of an environment may take
+    /// `max_memory` bytes.
     ///
     /// # Errors
     /// [`CommandError::Usage`] if there is no picture to turn, and [`CommandError::Load`].
-    pub fn load(&self, loaded: &LoadedScene, max_memory: u64) -> Result<SceneLight, CommandError> {
+    pub fn load(
+        &self,
+        loaded: &LoadedScene,
+        up_axis: UpAxis,
+        max_memory: u64,
+    ) -> Result<SceneLight, CommandError> {
         let default = loaded.lighting();
         let policy = |name: &Option<String>, default: &'static SpawnPolicy| {
             name.as_deref().map_or(default, |name| {
@@ -141,7 +147,8 @@ impl LightArgs {
             .terminator
             .as_deref()
             .map(|name| terminator_repair(name).expect("clap accepts only names in the table"));
-        let lights = self.lights(loaded, max_memory)?;
+        let placement = MapPlacement::upright(self.environment_up.unwrap_or(up_axis));
+        let lights = self.lights(loaded, placement, max_memory)?;
         Ok(SceneLight {
             settings: Lighting {
                 lights: Arc::new(Lights::or_white(&loaded.scene, lights.clone())),
@@ -160,20 +167,24 @@ impl LightArgs {
 
     /// The lights of the file and the chosen environment, which replaces the file's; without the studio, which moves with
     /// the camera.
-    fn lights(&self, loaded: &LoadedScene, max_memory: u64) -> Result<Vec<Light>, CommandError> {
+    fn lights(
+        &self,
+        loaded: &LoadedScene,
+        placement: MapPlacement,
+        max_memory: u64,
+    ) -> Result<Vec<Light>, CommandError> {
         let mut lights = loaded.lights.clone();
+        let placed = |map| Light::Environment(Environment::Map(PlacedMap::new(map, placement)));
         match &self.environment {
             None | Some(EnvironmentSource::Studio) => {}
             Some(EnvironmentSource::Constant(radiance)) => {
                 lights.push(Light::Environment(Environment::Constant(*radiance)));
             }
             Some(EnvironmentSource::BuiltIn) => {
-                lights.push(Light::Environment(Environment::built_in()));
+                lights.push(placed(EnvironmentMap::built_in()));
             }
             Some(EnvironmentSource::File(path)) => {
-                let map = load_map(path, max_memory)?;
-                let map = PlacedMap::new(map, MapPlacement::default());
-                lights.push(Light::Environment(Environment::Map(map)));
+                lights.push(placed(load_map(path, max_memory)?));
             }
         }
         if let Some(degrees) = self.rotation
@@ -207,33 +218,6 @@ impl SceneLight {
             ..self.settings.clone()
         }
     }
-}
-
-/// Loads the picture of an environment, and prints its warnings.
-fn load_map(path: &Path, max_memory: u64) -> Result<Arc<EnvironmentMap>, CommandError> {
-    let LoadedMap { map, warnings } = EnvironmentMap::load(path, max_memory, &Progress::default())?;
-    for warning in warnings {
-        print_line(format_args!("{}: warning: {warning}", shown(path)));
-    }
-    Ok(map)
-}
-
-/// Turns the last environment about its vertical axis, and returns whether it is a picture.
-fn turn(lights: &mut [Light], degrees: f32) -> bool {
-    let mut environments = lights.iter_mut().rev().filter_map(|light| match light {
-        Light::Environment(environment) => Some(environment),
-        _ => None,
-    });
-    let Some(Environment::Map(placed)) = environments.next() else {
-        return false;
-    };
-    let placement = *placed.placement();
-    let turned = MapPlacement {
-        rotation_radians: placement.rotation_radians + degrees.to_radians(),
-        ..placement
-    };
-    *placed = PlacedMap::new(Arc::clone(placed.map()), turned);
-    true
 }
 
 /// Refuses options that are given and don't change the picture of any of the views.
@@ -282,45 +266,6 @@ fn policy_names() -> impl clap::builder::TypedValueParser<Value = String> {
     PossibleValuesParser::new(SPAWN_POLICIES.iter().map(|policy| policy.name)).map(|name| name)
 }
 
-/// `studio`, `built-in`, `constant:0.5`, `constant:1,0.9,0.8`, or a path.
-fn parse_environment(text: &str) -> Result<EnvironmentSource, String> {
-    match text {
-        "" => return Err("expected a file, constant:R,G,B, studio or built-in".to_owned()),
-        "studio" => return Ok(EnvironmentSource::Studio),
-        "built-in" => return Ok(EnvironmentSource::BuiltIn),
-        _ => {}
-    }
-    let Some(colour) = text.strip_prefix("constant:") else {
-        let path = PathBuf::from(text);
-        let (kind, colon) = text
-            .split_once(':')
-            .map_or((text, ""), |(kind, _)| (kind, ":"));
-        return match nearest(kind, ["studio", "built-in", "constant"]) {
-            Some(name) if !path.exists() => Err(format!(
-                "there is no file “{}”; did you mean “{name}{colon}”?",
-                shown(&path)
-            )),
-            _ => Ok(EnvironmentSource::File(path)),
-        };
-    };
-    let numbers: Result<Vec<f64>, _> = colour.split(',').map(|word| word.trim().parse()).collect();
-    let radiance = match numbers.as_deref() {
-        Ok([all]) => DVec3::splat(*all),
-        Ok([r, g, b]) => DVec3::new(*r, *g, *b),
-        _ => return Err("expected constant:R,G,B, as in constant:1,0.9,0.8".to_owned()),
-    };
-    check_brightness(radiance).map_err(|fault| format!("the radiance {fault}"))?;
-    Ok(EnvironmentSource::Constant(radiance.as_vec3()))
-}
-
-/// `-90`.
-fn parse_rotation(text: &str) -> Result<f32, String> {
-    match text.parse() {
-        Ok(degrees) if (-360.0..=360.0).contains(&degrees) => Ok(degrees),
-        _ => Err("expected degrees from -360 to 360".to_owned()),
-    }
-}
-
 /// `0.5`.
 fn parse_distance(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
@@ -334,51 +279,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn environments_are_read_or_refused_with_a_reason() {
-        let constant = |radiance| Ok(EnvironmentSource::Constant(radiance));
-        assert_eq!(parse_environment("studio"), Ok(EnvironmentSource::Studio));
-        assert_eq!(
-            parse_environment("constant:0.5"),
-            constant(Vec3::splat(0.5))
-        );
-        assert_eq!(
-            parse_environment("constant:1,0.5,2"),
-            constant(Vec3::new(1.0, 0.5, 2.0))
-        );
-        let file = EnvironmentSource::File("sky.hdr".into());
-        assert_eq!(parse_environment("sky.hdr"), Ok(file));
-        for (bad, reason) in [
-            ("", "expected a file, constant:R,G,B, studio or built-in"),
-            ("constant:", "expected constant:R,G,B"),
-            ("constant:1,2", "expected constant:R,G,B"),
-            ("constant:-1", "the radiance must not be negative"),
-            ("constant:1,nan,1", "the radiance isn't a number"),
-            (
-                "constant:3e38,1,1",
-                "the radiance is too bright: a picture holds at most 2.8e14",
-            ),
-            ("constant:1e39", "the radiance is too bright"),
-            (
-                "studoi",
-                "there is no file “studoi”; did you mean “studio”?",
-            ),
-            (
-                "constnat:1",
-                "there is no file “constnat:1”; did you mean “constant:”?",
-            ),
-        ] {
-            let message = parse_environment(bad).expect_err(bad);
-            assert!(message.starts_with(reason), "{bad}: {message}");
-        }
-    }
-
-    #[test]
-    fn numbers_are_read_or_refused_with_a_reason() {
-        assert_eq!(parse_rotation("-90"), Ok(-90.0));
+    fn distances_are_read_or_refused_with_a_reason() {
         assert_eq!(parse_distance("0.5"), Ok(0.5));
-        for bad in ["361", "nan", ""] {
-            assert!(parse_rotation(bad).is_err(), "{bad}");
-        }
         for bad in ["0", "-1", "nan", ""] {
             assert!(parse_distance(bad).is_err(), "{bad}");
         }

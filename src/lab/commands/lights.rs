@@ -1,7 +1,9 @@
 //! The lights of a loaded file, as `hitscope info` lists them.
 
+use super::materials::rounded;
 use glam::{DVec3, Vec3};
 use hitscope_core::Scene;
+use hitscope_core::counts::counted;
 use hitscope_core::light::{Environment, Light};
 use hitscope_core::loading::LoadedScene;
 use serde::Serialize;
@@ -135,11 +137,13 @@ impl fmt::Display for LightInfo {
                 };
                 write!(
                     f,
-                    "area: {}, radiance {radiance:?}, {sides}, area {area}",
-                    hitscope_core::counts::counted(*primitives, "primitive")
+                    "area: {}, radiance {}, {sides}, area {}",
+                    counted(*primitives, "primitive"),
+                    rounded(radiance),
+                    rounded(&[*area as f32])
                 )
             }
-            Self::Constant { radiance } => write!(f, "constant: radiance {radiance:?}"),
+            Self::Constant { radiance } => write!(f, "constant: radiance {}", rounded(radiance)),
             Self::Envmap {
                 size: [width, height],
                 scale,
@@ -153,12 +157,18 @@ impl fmt::Display for LightInfo {
                 direction,
             } => write!(
                 f,
-                "directional: irradiance {irradiance:?}, direction {direction:?}"
+                "directional: irradiance {}, direction {}",
+                rounded(irradiance),
+                rounded(direction)
             ),
             Self::Point {
                 intensity,
                 position,
-            } => write!(f, "point: intensity {intensity:?}, position {position:?}"),
+            } => write!(
+                f,
+                "point: intensity {}, position {position:?}",
+                rounded(intensity)
+            ),
         }
     }
 }

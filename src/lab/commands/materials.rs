@@ -1,5 +1,6 @@
 //! The materials of a loaded scene, as `hitscope info` lists them.
 
+use glam::Vec3;
 use hitscope_core::Scene;
 use hitscope_core::bsdf::{Scatter as _, Slot};
 use hitscope_core::counts::counted;
@@ -20,6 +21,10 @@ pub struct MaterialInfo {
     pub back: Option<&'static str>,
     /// About the part of light from everywhere that the front reflects or lets pass, without textures.
     pub colour: [f32; 3],
+    /// What a material library says of it, by keyword: colours, or single numbers.
+    pub properties: Vec<PropertyInfo>,
+    /// Whether the front's model is the back's, too, although light doesn't pass through.
+    pub is_two_sided: bool,
     /// The emitted light, without textures.
     pub emission: [f32; 3],
     /// The part of the surface that is there, without textures.
@@ -30,6 +35,15 @@ pub struct MaterialInfo {
     pub triangles: usize,
     /// Number of other primitives.
     pub shapes: usize,
+}
+
+/// A property of a material in a library.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PropertyInfo {
+    /// The keyword.
+    pub keyword: &'static str,
+    /// The number, or the three of a colour.
+    pub value: Vec<f32>,
 }
 
 /// A texture of a material.
@@ -79,6 +93,8 @@ impl MaterialInfo {
             model: front.model().name,
             back,
             colour: front.colour().to_array(),
+            properties: properties(material),
+            is_two_sided: back.is_none() && !front.model().transmits,
             emission: material.emission.to_array(),
             opacity: material.opacity,
             maps: maps(material, list),
@@ -86,6 +102,31 @@ impl MaterialInfo {
             shapes,
         }
     }
+}
+
+/// The properties that a material library gives, except those that don't change the picture.
+fn properties(material: &Material) -> Vec<PropertyInfo> {
+    if material.sides.is_some() {
+        return Vec::new();
+    }
+    let colour = |rgb: Vec3| rgb.to_array().to_vec();
+    let has_highlights = material.illumination.has_highlights() && material.specular != Vec3::ZERO;
+    let given = [
+        ("Kd", material.diffuse.map(colour)),
+        ("Ks", has_highlights.then(|| colour(material.specular))),
+        ("Ns", has_highlights.then(|| vec![material.shininess])),
+        ("Ni", material.is_glass().then(|| vec![material.refraction])),
+        ("Tf", material.filter.map(colour)),
+        ("Pr", material.roughness.map(|x| vec![x])),
+        ("Pm", material.metalness.map(|x| vec![x])),
+    ];
+    let named = given.into_iter();
+    named
+        .filter_map(|(keyword, value)| {
+            let value = value?;
+            Some(PropertyInfo { keyword, value })
+        })
+        .collect()
 }
 
 /// The textures of a material.
@@ -150,6 +191,26 @@ fn texture_name(texture: Option<&Texture>) -> String {
     }
 }
 
+/// Numbers with four significant digits: one, or a list in brackets.
+pub(super) fn rounded(numbers: &[f32]) -> String {
+    let text = |x: f32| {
+        let short: f64 = format!("{x:.3e}").parse().unwrap_or(f64::from(x));
+        let is_plain = short == 0.0 || (1e-4..1e7).contains(&short.abs());
+        if is_plain {
+            format!("{short}")
+        } else {
+            format!("{short:e}")
+        }
+    };
+    match numbers {
+        [only] => text(*only),
+        all => {
+            let texts: Vec<String> = all.iter().map(|&x| text(x)).collect();
+            format!("[{}]", texts.join(", "))
+        }
+    }
+}
+
 impl fmt::Display for MaterialInfo {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // A name in a file may contain control characters.
@@ -157,15 +218,24 @@ impl fmt::Display for MaterialInfo {
             "" => "(no name)".to_owned(),
             name => shown(Path::new(name)),
         };
-        write!(f, "{name}: {}, colour {:?}", self.model, self.colour)?;
-        if let Some(back) = self.back {
-            write!(f, ", back {back}")?;
+        write!(f, "{name}: {}", self.model)?;
+        if self.properties.is_empty() {
+            write!(f, ", colour {}", rounded(&self.colour))?;
+        }
+        for PropertyInfo { keyword, value } in &self.properties {
+            write!(f, ", {keyword} {}", rounded(value))?;
+        }
+        match self.back {
+            Some(back) => write!(f, ", back {back}")?,
+            // Materials of libraries are, unless a scene file says otherwise.
+            None if self.is_two_sided && self.properties.is_empty() => write!(f, ", both sides")?,
+            None => {}
         }
         if self.emission != [0.0; 3] {
-            write!(f, ", emission {:?}", self.emission)?;
+            write!(f, ", emission {}", rounded(&self.emission))?;
         }
         if self.opacity < 1.0 {
-            write!(f, ", opacity {}", self.opacity)?;
+            write!(f, ", opacity {}", rounded(&[self.opacity]))?;
         }
         for MapInfo { of, texture } in &self.maps {
             write!(f, ", {of} from {}", shown(Path::new(texture)))?;
@@ -177,5 +247,43 @@ impl fmt::Display for MaterialInfo {
             [] => write!(f, "; not used"),
             uses => write!(f, "; {}", uses.join(", ")),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hitscope_core::mesh::Illumination;
+
+    #[test]
+    fn numbers_have_four_digits() {
+        assert_eq!(rounded(&[0.700_000_05]), "0.7");
+        assert_eq!(rounded(&[0.0, 1.0, 0.333_333_34]), "[0, 1, 0.3333]");
+        assert_eq!(rounded(&[1.25e-9]), "1.25e-9");
+    }
+
+    #[test]
+    fn a_material_of_a_library_is_listed_with_what_the_library_says() {
+        let glossy = Material {
+            diffuse: Some(Vec3::new(0.5, 0.1, 0.1)),
+            specular: Vec3::splat(0.4),
+            shininess: 20.0,
+            roughness: Some(0.25),
+            ..Material::named("glossy")
+        };
+        let text = MaterialInfo::with_uses(&glossy, [2, 0], &[]).to_string();
+        let expected = "glossy: metal-rough, Kd [0.5, 0.1, 0.1], Ks [0.4, 0.4, 0.4], Ns 20, Pr 0.25; 2 triangles";
+        assert_eq!(text, expected);
+        let glass = Material {
+            illumination: Illumination::Glass,
+            refraction: 1.5,
+            filter: Some(Vec3::new(0.9, 1.0, 0.9)),
+            ..Material::named("glass")
+        };
+        let text = MaterialInfo::with_uses(&glass, [0, 0], &[]).to_string();
+        assert_eq!(
+            text,
+            "glass: dielectric, Ni 1.5, Tf [0.9, 1, 0.9]; not used"
+        );
     }
 }

@@ -5,6 +5,7 @@ use crate::inspection::{PathReport, VertexReport, light_text};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use glam::UVec2;
+use hitscope_core::camera::UpAxis;
 use hitscope_core::integrator::{Context, INTEGRATORS, Integrator, ViewOptions, integrator};
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::scene::Shading;
@@ -48,7 +49,7 @@ impl PathArgs {
         }
     }
 
-    /// The path of a sample of a pixel, with the random numbers that `render` has there.
+    /// The path of a sample of a pixel in a picture in which an axis points up, with the random numbers that `render` has there.
     ///
     /// # Errors
     /// See [`CommandError`].
@@ -56,7 +57,7 @@ impl PathArgs {
         &self,
         loaded: &LoadedScene,
         intersector: Arc<dyn Intersector>,
-        camera: &Camera,
+        (camera, up_axis): (&Camera, UpAxis),
         shading: Shading,
         (pixel, max_memory): (UVec2, u64),
     ) -> Result<Option<PathReport>, CommandError> {
@@ -74,7 +75,7 @@ impl PathArgs {
             camera: *camera,
             shading,
             background: from_display(DARK_BACKGROUND),
-            lighting: self.light.lighting(loaded, camera, max_memory)?,
+            lighting: self.light.lighting(loaded, (camera, up_axis), max_memory)?,
             options: ViewOptions::default(),
         };
         let sample = self.sample.unwrap_or(0);
@@ -122,6 +123,6 @@ pub(super) fn print_path(path: &PathReport, out: &mut dyn Write) -> io::Result<(
         writeln!(out, "{}", line.trim_end())?;
     }
     let afar = light_text(path.from_afar);
-    writeln!(out, "  end: {}; light from afar {afar}", path.end)?;
+    writeln!(out, "  end: {}; light of the environment {afar}", path.end)?;
     writeln!(out, "  colour {}", light_text(path.radiance))
 }

@@ -1,7 +1,7 @@
 //! Options of a traced picture, and its tracing.
 
 use super::args::ViewArg;
-use super::camera::CameraArgs;
+use super::camera::{CameraArgs, parse_vector};
 use super::kernel::parse_kernel;
 use super::legend::Legend;
 use super::light::no_effect;
@@ -10,17 +10,17 @@ use super::scene::SceneArgs;
 use super::{ClipArgs, ColourArgs, CommandError, DisplayArgs, LightArgs, ThreadsArg};
 use crate::progress::{Meter, ProgressBar};
 use clap::Args;
-use glam::{UVec2, Vec3};
+use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::UpAxis;
 use hitscope_core::colour::ColourScale;
-use hitscope_core::film::BYTES_PER_PIXEL;
+use hitscope_core::film::{BYTES_PER_PIXEL, Noise, NoiseSum};
 use hitscope_core::integrator::{Comparison, Integrator, Setting};
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::picture::{Alpha, Guides};
+use hitscope_core::plan::PixelRect;
 use hitscope_core::scene::{FirstTree, Shading};
 use hitscope_core::{Camera, Film};
-use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -42,6 +42,10 @@ pub struct PictureArgs {
     /// Colours of numbers and back faces.
     #[command(flatten)]
     pub colours: ColourArgs,
+    /// Add an offset to the coordinates in which the scene is stored, and to the camera's: the larger they are, the more
+    /// are 32-bit numbers rounded, which shows in the view “spawning”. Triangle meshes only
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector)]
+    pub offset: Option<DVec3>,
     /// Clip.
     #[command(flatten)]
     pub clip: ClipArgs,
@@ -84,17 +88,6 @@ pub struct Rendered {
     pub alpha: Option<Alpha>,
 }
 
-/// How far the colours of a picture may be off by chance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Noise {
-    /// The mean over all pixels of the standard error of the luminance.
-    pub mean: f64,
-    /// The largest standard error.
-    pub worst: f64,
-    /// The pixel that has it.
-    pub worst_at: UVec2,
-}
-
 impl Rendered {
     /// The pixels as they are displayed, in sRGB with straight alpha, row by row from the top.
     pub fn pixels(&self) -> Vec<[u8; 4]> {
@@ -104,12 +97,19 @@ impl Rendered {
         }
     }
 
-    /// The noise, from the variance of each pixel's samples as if they were independent. Samples that are spread evenly
-    /// have less. With one sample per pixel it isn't known, and counts as 0.
+    /// The noise; none with one sample per pixel, where it isn't known.
     pub fn noise(&self) -> Noise {
-        let mut sum = NoiseSum::default();
-        sum.add(self);
-        sum.noise()
+        self.noise_sum().noise()
+    }
+
+    /// The sums from which the noise of the picture follows, of these rows.
+    pub(super) fn noise_sum(&self) -> NoiseSum {
+        let rows = PixelRect {
+            min: UVec2::ZERO,
+            max: self.film.size(),
+        };
+        let sum = NoiseSum::of(&self.film, rows).unwrap_or_default();
+        sum.moved_by(UVec2::new(0, self.rows.start))
     }
 
     /// The pixels with the legend of the numbers to their right, and the size of both together; `None` if the view shows no
@@ -119,59 +119,20 @@ impl Rendered {
         let size = UVec2::new(legend.width_together(), self.film.size().y);
         Some((size, legend.beside(pixels, self.rows.start)))
     }
-
-    fn positions(&self) -> impl Iterator<Item = UVec2> {
-        let UVec2 { x, y } = self.film.size();
-        (0..y).flat_map(move |row| (0..x).map(move |column| UVec2::new(column, row)))
-    }
 }
 
-/// The sum of the standard errors of a picture's strips, and the largest one.
-#[derive(Default)]
-pub(super) struct NoiseSum {
-    sum: f64,
-    count: u32,
-    worst: f64,
-    worst_at: UVec2,
+fn not_movable() -> CommandError {
+    let message = "--offset moves scenes of triangle meshes alone, and not beyond 3.4e38";
+    CommandError::Usage(message.to_owned())
 }
 
-impl NoiseSum {
-    /// Adds the next strip.
-    pub(super) fn add(&mut self, rendered: &Rendered) {
-        for pixel in rendered.positions() {
-            let error = rendered.film.standard_error(pixel).unwrap_or(0.0);
-            self.sum += error;
-            if error > self.worst {
-                self.worst = error;
-                self.worst_at = pixel + UVec2::new(0, rendered.rows.start);
-            }
-        }
-        self.count += rendered.film.size().element_product();
-    }
-
-    /// The noise of all strips together.
-    pub(super) fn noise(&self) -> Noise {
-        Noise {
-            mean: self.sum / f64::from(self.count.max(1)),
-            worst: self.worst,
-            worst_at: self.worst_at,
-        }
-    }
-}
-
-impl fmt::Display for Noise {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            mean,
-            worst,
-            worst_at,
-        } = self;
-        let (x, y) = (worst_at.x, worst_at.y);
-        write!(
-            f,
-            "noise: standard error of the luminance {mean:.3e} on average, {worst:.3e} at most, at pixel {x},{y}"
-        )
-    }
+/// The noise of a picture as a line of text.
+pub(super) fn noise_text(noise: &Noise) -> String {
+    let [mean, worst] = [noise.mean, noise.worst].map(|part| 100.0 * part);
+    let UVec2 { x, y } = noise.worst_at;
+    format!(
+        "noise: standard error {mean:.3} % of the mean luminance on average, {worst:.3} % at most, at pixel {x},{y}; without pixels that show no surface"
+    )
 }
 
 /// The background of pictures without a window, in sRGB; the dark theme's.
@@ -267,11 +228,16 @@ impl PictureArgs {
         mut loaded: LoadedScene,
         has_guides: bool,
     ) -> Result<PreparedScene<'_>, CommandError> {
+        if let Some(offset) = self.offset {
+            loaded = loaded.moved(offset).ok_or_else(not_movable)?;
+        }
         loaded.scene = self.clip.apply(loaded.scene)?;
         let views = self.view.views(&loaded);
         self.check_views(&views)?;
         let need_light = views.iter().any(|view| view.needs.lights);
-        let light = || self.light.load(&loaded, self.scene.mesh.memory.bytes());
+        let up_axis = self.camera.up_axis(loaded.view.as_ref());
+        let max_memory = self.scene.mesh.memory.bytes();
+        let light = || self.light.load(&loaded, up_axis, max_memory);
         Ok(PreparedScene {
             light: need_light.then(light).transpose()?,
             args: self,

@@ -212,7 +212,7 @@ impl PreparedView<'_> {
             mut film,
             alpha,
         } = strip;
-        film.set_display(args.display.display());
+        film.set_display(args.display.display(job.integrator));
         let guides = scene.has_guides.then(|| picture.guides(job));
         let guides = guides.transpose()?;
         Ok(Rendered {

@@ -78,7 +78,7 @@ static DIALOGS: [Row; 8] = [
             ],
         },
         suggested: own_path,
-        chosen: |app, path, _| app.set_environment(&path),
+        chosen: |app, path, ctx| app.open_environment(&path, ctx),
     },
     Row {
         purpose: Purpose::OpenSession,

@@ -71,8 +71,28 @@ impl App {
             self.open.load_options,
             self.seen.settings.kernel(),
             self.preferences.scene_options(),
+            self.seen.settings.offset(),
             ctx,
         ));
+    }
+
+    /// Stores the scene with the offset that the settings ask for: loads the open file again, or makes the built-in scene
+    /// again.
+    pub(super) fn use_offset(&mut self, ctx: &egui::Context) {
+        let wanted = self.seen.settings.offset();
+        let document = &self.open.document;
+        let is_busy = self.open.loading.is_some() || ctx.egui_is_using_pointer();
+        if document.offset == wanted || document.is_blank || is_busy {
+            return;
+        }
+        match document.path.clone() {
+            Some(path) => self.load(path, ctx),
+            None => {
+                let mut document = Document::embedded(self.seen.settings.kernel());
+                document.move_by(wanted);
+                self.show(document, ctx);
+            }
+        }
     }
 
     /// Cancels loading without waiting for its thread.
@@ -93,6 +113,7 @@ impl App {
             // Cancelled by the user.
             Ok(Some(Err(LoadError::Cancelled { .. }))) => {
                 (self.open.loading, self.open.loading_session) = (None, None);
+                self.open.document.offset = self.seen.settings.offset();
                 return;
             }
             Ok(Some(result)) => result.map_err(|error| error.to_string()),
@@ -109,6 +130,8 @@ impl App {
                 }
             }
             Err(mut message) => {
+                // Not tried again until the settings change.
+                self.open.document.offset = self.seen.settings.offset();
                 if !path.exists() && self.preferences.recent.remove(&path) {
                     message += " (it is no longer listed under Open recent)";
                 }
@@ -180,6 +203,9 @@ impl App {
             self.warn(&text);
         }
         self.note_warnings();
+        if self.open.document.ignores_offset {
+            self.tell("Only the coordinates of triangle meshes can be moved by an offset");
+        }
     }
 
     /// Adds the document's warnings to the log, except the first one, which is shown as a notice.

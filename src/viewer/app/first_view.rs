@@ -3,13 +3,14 @@
 use super::App;
 use glam::UVec2;
 use hitscope_core::Aabb;
-use hitscope_core::camera::{Turntable, UpAxis};
+use hitscope_core::camera::Turntable;
 
 impl App {
     /// Shows the view of the file's sensor, or the scene from the default direction; as the file's integrator sees it, if
-    /// there is one.
+    /// there is one, and in the light of the file's environment, if it has one.
     pub(super) fn use_first_view(&mut self) {
         self.seen.settings.file_view = self.open.document.loaded.integrator().map(|view| view.name);
+        self.use_environment_of_file();
         self.use_first_camera();
     }
 
@@ -84,34 +85,19 @@ impl App {
         self.seen.turntable = view;
     }
 
-    /// The view of the file's sensor, about the axis for which the horizon is less tilted; of two, the one for which the
-    /// view is more level.
+    /// The view of the file's sensor, about the axis for which it is more level.
     fn view_of_file(&self) -> Option<Turntable> {
-        /// More than the rounding of angles.
-        const SAME_TILT: f64 = 1e-9;
         let loaded = &self.open.document.loaded;
         let view = loaded.view.as_ref()?;
         let bounds = loaded.scene.bounds_with_elements();
-        let eye = view.eye - loaded.scene.mesh().origin();
-        let about = |axis| {
-            let axes = [eye, view.forward, view.up];
-            let projection = view.projection_in(self.shown.resolution);
-            Turntable::looking(axes, projection, axis, bounds).ok()
-        };
-        let tilt = |turntable: &Turntable| turntable.roll_radians.abs();
-        let slope = |turntable: &Turntable| turntable.pitch_radians.abs();
-        let kept = about(self.seen.settings.up_axis())?;
-        let other = about(match self.seen.settings.up_axis() {
-            UpAxis::Y => UpAxis::Z,
-            UpAxis::Z => UpAxis::Y,
-        })?;
-        let difference = tilt(&other) - tilt(&kept);
-        let is_better = if difference.abs() < SAME_TILT {
-            slope(&other) < slope(&kept)
-        } else {
-            difference < 0.0
-        };
-        Some(if is_better { other } else { kept })
+        let axes = [
+            view.eye - loaded.scene.mesh().origin(),
+            view.forward,
+            view.up,
+        ];
+        let projection = view.projection_in(self.shown.resolution);
+        let preferred = self.seen.settings.up_axis();
+        Turntable::looking_level(axes, projection, preferred, bounds).ok()
     }
 
     /// Looks at the scene from the default direction. Keeps the settings that don't depend on the mesh: up

@@ -1,8 +1,8 @@
 //! What is shown over the picture: path fields, messages, sheets and the command palette.
 
 use super::App;
+use super::environment::is_environment;
 use super::feedback::NoticeKind;
-use super::light::is_environment;
 use super::work::work_ui;
 use crate::command::{Commands, help_sheet};
 use crate::log::LogAction;
@@ -55,7 +55,7 @@ impl App {
         if let Some(file) = dropped {
             let path = file.path();
             if is_environment(path) {
-                self.set_environment(path);
+                self.open_environment(path, ctx);
             } else if PictureFile::is_name_of_one(path) {
                 self.compare_with_picture(path.to_owned());
             } else {

@@ -19,7 +19,8 @@
 //! | `comparing` | the comparison with another picture |
 //! | `request` | requests to the tracers |
 //! | `legend` | the legend in the picture, and its range |
-//! | `light`, `scene_lights` | environment, exposure; the lights of a scene |
+//! | `light`, `scene_lights` | noise, exposure; the lights of a scene |
+//! | `environment` | the environment in place of the scene's own |
 //! | `reopening` | continuing in another window after the device was lost |
 //! | `files` | loading, reloading and saving |
 //! | `dialogs` | file dialogs |
@@ -37,6 +38,7 @@ mod clipping;
 mod comparing;
 mod copying;
 mod dialogs;
+mod environment;
 mod feedback;
 mod files;
 mod first_view;

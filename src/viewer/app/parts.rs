@@ -11,12 +11,12 @@
 
 use super::Sheet;
 use super::dialogs::Dialogs;
+use super::environment::EnvironmentFiles;
 use super::files::Neighbours;
 use super::flaws::FlawSearch;
 use super::framing::PartBounds;
 use super::inspecting::Inspecting;
 use super::legend::RangeFit;
-use super::light::EnvironmentFile;
 use super::magnifier::Magnifier;
 use super::path::PickedPath;
 use super::pick::{Pick, Picking};
@@ -223,7 +223,7 @@ pub(crate) struct Traced {
     pub picture: Picture,
     /// The lights of the last request that needs lights.
     pub lights: SceneLights,
-    pub environment_file: EnvironmentFile,
+    pub environment_files: EnvironmentFiles,
     pub overlay: OverlayLayer,
     /// The search for the range of the numbers in the picture.
     pub range_fit: RangeFit,
@@ -241,7 +241,7 @@ impl Traced {
             development: Development::default(),
             picture: Picture::new(render_state),
             lights: SceneLights::default(),
-            environment_file: EnvironmentFile::default(),
+            environment_files: EnvironmentFiles::default(),
             overlay: OverlayLayer::new(render_state, adapter),
             range_fit: RangeFit::default(),
             on_screen: None,

@@ -8,6 +8,7 @@ impl App {
     /// Starts the work that the settings require of the document, unless it is done or under way. Called when the
     /// settings may have changed: after the widgets of a frame, and for a new document.
     pub(super) fn prepare(&mut self, ctx: &egui::Context) {
+        self.use_offset(ctx);
         let (settings, document) = (&self.seen.settings, &mut self.open.document);
         // Not while a slider is dragged: each step would recompute all normals.
         if !ctx.egui_is_using_pointer() && document.use_crease(settings.crease()) {

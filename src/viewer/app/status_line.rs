@@ -35,9 +35,9 @@ impl App {
         };
         // A path has many rays.
         let unit = if self.seen.settings.view().needs.lights {
-            "Msamples/s"
+            "samples/s"
         } else {
-            "Mrays/s"
+            "rays/s"
         };
         let kernel = shown_kernel(self.open.document.kernel(), &scene.kernels()).short_name();
         let mut parts = vec![
@@ -45,7 +45,7 @@ impl App {
             primitives(scene),
             self.samples_part(&status),
             format!("pass {} of {}", status.passes, status.pass_count),
-            format!("{:.1} {unit}", status.rays_per_s / 1e6),
+            speed(status.rays_per_s, unit),
             format!("{:.1} s", status.lasted.as_secs_f64()),
             format!("{tree} {:.0} ms", ms(scene.build_time())),
         ];
@@ -81,13 +81,12 @@ impl App {
         let all = counted(self.seen.settings.samples as usize, "sample");
         let mut text = format!("{} of {all}", status.samples);
         if let Some(noise) = status.noise {
-            let exposure = f64::from(self.seen.settings.exposure());
-            let [mean, worst] = [noise.mean, noise.worst].map(|error| percent(exposure * error));
+            let [mean, worst] = [noise.mean, noise.worst].map(percent);
             text += &format!(", noise {mean} (worst {worst})");
         }
         text += match status.stopped {
-            Some(StopReason::Time) => ", stopped by time",
-            Some(StopReason::Noise) => ", stopped by noise",
+            Some(StopReason::Time) => ", stopped at the time limit",
+            Some(StopReason::Noise) => ", stopped at the noise limit",
             None if self.traced.tracer.is_paused() => ", paused",
             None => "",
         };
@@ -95,12 +94,21 @@ impl App {
     }
 }
 
-/// An error relative to white in percent, such as `0.8 %`.
+/// Noise in percent, such as `0.8 %`.
 fn percent(error: f64) -> String {
     match 100.0 * error {
         x if x >= 10.0 => format!("{x:.0} %"),
         x if x >= 0.1 => format!("{x:.1} %"),
         x => format!("{} %", significant(x, 1)),
+    }
+}
+
+/// A number per second, such as `1.2 Mrays/s` or `350 samples/s`.
+fn speed(per_s: f64, unit: &str) -> String {
+    match per_s {
+        x if x >= 1e5 => format!("{:.1} M{unit}", x / 1e6),
+        x if x >= 1e3 => format!("{:.1} k{unit}", x / 1e3),
+        x => format!("{x:.0} {unit}"),
     }
 }
 
@@ -115,6 +123,18 @@ fn primitives(scene: &Scene) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn slow_pictures_have_a_speed_other_than_zero() {
+        for (per_s, text) in [
+            (1.25e7, "12.5 Mrays/s"),
+            (1e5, "0.1 Mrays/s"),
+            (4.2e4, "42.0 krays/s"),
+            (350.0, "350 rays/s"),
+        ] {
+            assert_eq!(speed(per_s, "rays/s"), text);
+        }
+    }
 
     #[test]
     fn noise_is_shown_in_percent_with_few_digits() {

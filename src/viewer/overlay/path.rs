@@ -18,21 +18,21 @@ pub static PATH: OverlaySpec = OverlaySpec {
         LineSpec {
             colour: Some([115, 230, 128]),
             width: 1.4,
-            behind: Behind::Faint,
+            behind: Behind::Clear,
             is_cut: false,
             ..LineSpec::new(|input, _| gather(input, PathLines::Visible))
         },
         LineSpec {
             colour: Some([242, 77, 77]),
             width: 1.4,
-            behind: Behind::Faint,
+            behind: Behind::Clear,
             is_cut: false,
             ..LineSpec::new(|input, _| gather(input, PathLines::Blocked))
         },
         LineSpec {
             colour: Some([255, 217, 51]),
             width: 2.4,
-            behind: Behind::Faint,
+            behind: Behind::Clear,
             is_cut: false,
             ..LineSpec::new(|input, _| gather(input, PathLines::Segments))
         },
@@ -113,6 +113,8 @@ fn dashes(line: Line) -> impl Iterator<Item = Line> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gpu::lines::LineOcclusion;
+    use crate::overlay::{OVERLAYS, Overlays};
     use hitscope_core::integrator::{PathEnd, PathVertex, ShadowRay};
     use hitscope_core::mesh::shapes::{Placement, torus};
     use hitscope_core::scene::scene;
@@ -133,6 +135,22 @@ mod tests {
             throughput,
             survival: None,
         }
+    }
+
+    #[test]
+    fn lines_inside_and_behind_surfaces_are_clear_and_above_those_of_the_picked_primitive() {
+        let overlays = Overlays::default();
+        let state = overlays.state(&PATH);
+        for spec in PATH.lines {
+            let looks = spec.looks(state, 1.0);
+            let behind = looks
+                .iter()
+                .find(|(kind, _)| kind.occlusion == LineOcclusion::Through);
+            let (_, style) = behind.expect("drawn through surfaces");
+            assert!(style.colour[3] >= 0.5, "{:?}", style.colour);
+        }
+        let place = |name| OVERLAYS.iter().position(|overlay| overlay.name == name);
+        assert!(place("path") > place("picked"));
     }
 
     #[test]

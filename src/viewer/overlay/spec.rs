@@ -100,10 +100,20 @@ pub enum Behind {
     Hidden,
     /// Faintly.
     Faint,
+    /// Clearly: for lines that mostly run inside or behind surfaces.
+    Clear,
 }
 
-/// Factor of the opacity of faint lines.
-const FAINT: f32 = 0.3;
+impl Behind {
+    /// The factor of the opacity of lines behind a surface; `None` if they aren't drawn.
+    fn opacity(self) -> Option<f32> {
+        match self {
+            Self::Hidden => None,
+            Self::Faint => Some(0.3),
+            Self::Clear => Some(0.7),
+        }
+    }
+}
 
 impl OverlaySpec {
     /// A row with a switch that is off at first, and nothing to draw.
@@ -186,14 +196,14 @@ impl LineSpec {
         }
     }
 
-    /// The same lines' kinds and styles in the order of drawing: faint ones through surfaces first, then those in front of them.
+    /// The same lines' kinds and styles in the order of drawing: those through surfaces first, then those in front of them.
     pub(super) fn looks(&self, state: &OverlayState, scale: f32) -> Vec<(LineKind, StyleUniform)> {
         let style = self.style(state, scale);
         let mut looks = Vec::new();
-        if self.behind == Behind::Faint {
-            let mut faint = style;
-            faint.colour[3] *= FAINT;
-            looks.push((self.kind(LineOcclusion::Through), faint));
+        if let Some(opacity) = self.behind.opacity() {
+            let mut behind = style;
+            behind.colour[3] *= opacity;
+            looks.push((self.kind(LineOcclusion::Through), behind));
         }
         looks.push((self.kind(LineOcclusion::Hidden), style));
         looks

@@ -16,6 +16,8 @@ use std::ops::RangeInclusive;
 
 /// Distances of ambient occlusion, in radii of the scene.
 pub const AO_DISTANCES: RangeInclusive<f32> = 0.001..=10.0;
+/// Offsets of coordinates, in units of the file.
+pub const SPAWN_OFFSETS: RangeInclusive<f64> = 0.0..=1e9;
 /// Limits on the surfaces of a path.
 pub const DEPTH_LIMITS: RangeInclusive<u32> = 1..=1000;
 /// Factors of the light from far away.
@@ -26,7 +28,7 @@ pub const ROTATIONS: RangeInclusive<f32> = 0.0..=360.0;
 const DRAGGED_EXPOSURES: RangeInclusive<f32> = -10.0..=10.0;
 /// Limits on the time of tracing, in seconds.
 pub const TIME_LIMITS_S: RangeInclusive<f32> = 1.0..=86_400.0;
-/// Limits on the noise, in percent of white.
+/// Limits on the noise, in percent of the mean luminance.
 pub const NOISE_LIMITS: RangeInclusive<f32> = 0.001..=100.0;
 
 /// Shows the options that the chosen view uses; nothing if it needs no lights.
@@ -71,6 +73,17 @@ pub(super) fn light_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Co
     if needs.uses(Setting::SecondSpawn) {
         let chosen = settings.second_spawn();
         spawn_ui(ui, "compared with", chosen, &mut settings.second_spawn);
+        ui.horizontal(|ui| {
+            let label = ui.label("Offset");
+            let slider = number_slider(&mut settings.spawn_offset, SPAWN_OFFSETS)
+                .logarithmic(true)
+                .smallest_positive(1.0)
+                .custom_formatter(|x, _| format!("{x:.0}"));
+            let slider = ui.add(slider).labelled_by(label.id);
+            slider.on_hover_text(
+                "Added to the coordinates of scene and camera: the larger they are, the more are 32-bit numbers rounded. Scenes of triangle meshes only",
+            );
+        });
     }
     if needs.uses(Setting::Terminator) {
         terminator_ui(ui, settings);
@@ -89,15 +102,18 @@ fn environment_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Command
         EnvironmentSource::Studio => "Studio",
         EnvironmentSource::File => file.as_deref().unwrap_or_default(),
     };
+    let chosen = settings.environment();
     ui.horizontal(|ui| {
         use EnvironmentSource::{Colour, File, Scene, Studio};
         let label = ui.label("Environment");
         egui::ComboBox::from_id_salt("environment")
-            .selected_text(title(settings.environment))
+            .selected_text(title(chosen))
             .show_ui(ui, |ui| {
                 for source in [Scene, Studio, Colour, File] {
-                    if source != File || file.is_some() {
-                        ui.selectable_value(&mut settings.environment, source, title(source));
+                    let is_there = source != File || file.is_some();
+                    let is_chosen = source == chosen;
+                    if is_there && ui.selectable_label(is_chosen, title(source)).clicked() {
+                        settings.keep_environment(source);
                     }
                 }
             })
@@ -106,13 +122,13 @@ fn environment_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Command
             .on_hover_text(
                 "Light from far away. That of the scene is white if nothing in the scene emits light.",
             );
-        if settings.environment == Colour {
+        if settings.environment() == Colour {
             ui.color_edit_button_srgb(&mut settings.environment_colour)
                 .accessible_name("Colour of the environment");
         }
     });
     commands.button_ui(ui, "open-environment");
-    if settings.environment != EnvironmentSource::Scene {
+    if settings.environment() != EnvironmentSource::Scene {
         ui.horizontal(|ui| {
             let label = ui.label("Brightness");
             let slider = number_slider(&mut settings.environment_brightness, BRIGHTNESSES)
@@ -212,7 +228,7 @@ fn terminator_ui(ui: &mut egui::Ui, settings: &mut Settings) {
 fn noise_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Commands) {
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.has_time_limit, "Stop after")
-            .on_hover_text("Ends refinement after so many seconds of tracing");
+            .on_hover_text("Ends refinement after this time by the clock, but not before the first pass is done; pauses don't count");
         let secs = number_field(&mut settings.time_limit_s)
             .range(TIME_LIMITS_S)
             .suffix(" s");
@@ -222,8 +238,8 @@ fn noise_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Commands) {
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.has_noise_limit, "Stop at noise")
             .on_hover_text(format!(
-                "Ends refinement when the mean standard error of the pixels is at most this, in percent of white; \
-                 from {LEAST_SAMPLES} samples per pixel on"
+                "Ends refinement when the mean standard error of the pixels that show a surface is at most this, in percent \
+                 of their mean luminance; from {LEAST_SAMPLES} samples per pixel on"
             ));
         let percent = number_field(&mut settings.noise_limit_percent)
             .range(NOISE_LIMITS)

@@ -17,6 +17,9 @@ pub struct PathView<'p> {
     pub last: u32,
 }
 
+/// Room in points below the table for a scroll bar.
+const BELOW_TABLE: f32 = 16.0;
+
 /// Shows a path and a choice of samples. Returns the sample that the user selects.
 pub fn path_ui(ui: &mut egui::Ui, view: &PathView<'_>) -> Option<u32> {
     let mut selected = view.sample;
@@ -42,47 +45,39 @@ pub fn path_ui(ui: &mut egui::Ui, view: &PathView<'_>) -> Option<u32> {
     if let Some(path) = view.path {
         rows_ui(ui, |ui| {
             row_ui(ui, "colour", light_text(path.radiance));
-            row_ui(ui, "light from afar", light_text(path.from_afar));
+            row_ui(ui, "environment", light_text(path.from_afar));
             row_ui(ui, "end", path.end);
         });
         if !path.vertices.is_empty() {
-            tables_ui(ui, path);
+            table_of_vertices_ui(ui, path);
         }
     }
     (selected != view.sample).then_some(selected)
 }
 
-/// Shows the vertices in tables, of which the first fits into the panel's default width.
-fn tables_ui(ui: &mut egui::Ui, path: &PathReport) {
+/// Shows the vertices in a table, of which the first columns fit into the panel's default width, and notes about them.
+fn table_of_vertices_ui(ui: &mut egui::Ui, path: &PathReport) {
     let vertices = || (1..).zip(&path.vertices);
+    ui.label("Light that each surface adds to the colour, and the throughput of the path from there on (linear RGB)");
     egui::ScrollArea::horizontal()
-        .id_salt("path tables")
+        .id_salt("path table")
         .show(ui, |ui| {
-            ui.label("Vertices, and the throughput behind them (linear RGB)");
             let row = |(number, vertex): (usize, &VertexReport)| {
-                let VertexReport {
-                    t,
-                    shape,
-                    primitive,
-                    throughput,
-                    ..
-                } = vertex;
+                let primitive = format!("{} {}", vertex.shape, vertex.primitive);
+                let light = [vertex.direct, vertex.emission, vertex.throughput];
+                let [direct, emission, throughput] = light.map(light_text);
+                let t = significant(f64::from(vertex.t), 5);
                 [
                     number.to_string(),
-                    significant(f64::from(*t), 5),
-                    format!("{shape} {primitive}"),
-                    light_text(*throughput),
+                    t,
+                    primitive,
+                    direct,
+                    emission,
+                    throughput,
                 ]
             };
-            let columns = ["", "t", "primitive", "throughput"];
+            let columns = ["", "t", "primitive", "from lights", "emitted", "throughput"];
             table_ui(ui, columns, vertices().map(row));
-            ui.add_space(4.0);
-            ui.label("Light added to the sample's colour");
-            let row = |(number, vertex): (usize, &VertexReport)| {
-                let [emission, direct] = [vertex.emission, vertex.direct].map(light_text);
-                [number.to_string(), emission, direct]
-            };
-            table_ui(ui, ["", "emitted", "from lights"], vertices().map(row));
             for (number, vertex) in vertices() {
                 let notes = vertex.notes();
                 if !notes.is_empty() {
@@ -90,5 +85,7 @@ fn tables_ui(ui: &mut egui::Ui, path: &PathReport) {
                     ui.add(egui::Label::new(text).extend());
                 }
             }
+            // The scroll bars lie over the last line otherwise.
+            ui.add_space(BELOW_TABLE);
         });
 }

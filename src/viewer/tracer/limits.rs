@@ -1,13 +1,13 @@
 //! Conditions that end refinement before all samples are traced.
 
-use super::noise::Noise;
+use hitscope_core::film::Noise;
 
 /// Conditions that end refinement before all samples are traced. They hold for views that need lights.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
-    /// Seconds of tracing.
+    /// Seconds by the clock since the view began, without pauses.
     pub secs: Option<f64>,
-    /// Mean noise, where white is 1.
+    /// [`Noise::mean`].
     pub noise: Option<f64>,
 }
 
@@ -26,8 +26,11 @@ pub const LEAST_SAMPLES: u32 = 16;
 impl Limits {
     /// The condition that is satisfied after so many seconds and samples per pixel.
     pub fn reached(&self, secs: f64, samples: u32, noise: Option<Noise>) -> Option<StopReason> {
-        let is_calm =
-            |limit: f64| samples >= LEAST_SAMPLES && noise.is_some_and(|noise| noise.mean <= limit);
+        // A picture that is black so far may only not have found its lights.
+        let is_calm = |limit: f64| {
+            let is_less = |noise: Noise| noise.luminance > 0.0 && noise.mean <= limit;
+            samples >= LEAST_SAMPLES && noise.is_some_and(is_less)
+        };
         if self.noise.is_some_and(is_calm) {
             return Some(StopReason::Noise);
         }
@@ -42,7 +45,13 @@ mod tests {
 
     #[test]
     fn refinement_ends_at_the_first_limit_and_not_by_the_noise_of_few_samples() {
-        let noise = |mean| Some(Noise { mean, worst: 1.0 });
+        let noise = |mean| {
+            Some(Noise {
+                mean,
+                luminance: 1.0,
+                ..Noise::default()
+            })
+        };
         let limits = Limits {
             secs: Some(10.0),
             noise: Some(0.01),
@@ -54,6 +63,7 @@ mod tests {
             Some(StopReason::Noise)
         );
         assert_eq!(limits.reached(1.0, 8, noise(0.001)), None);
+        assert_eq!(limits.reached(1.0, 16, Some(Noise::default())), None);
         assert_eq!(Limits::default().reached(1e9, 65536, noise(0.0)), None);
     }
 }

@@ -1,28 +1,11 @@
-//! The noise of a picture: the standard errors of its pixels.
+//! The noise of a picture while tiles arrive.
 
-use glam::UVec2;
 use hitscope_core::Film;
-
-/// The noise of a picture: standard errors of its pixels' luminance, in linear light where white is 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Noise {
-    /// The mean over all pixels.
-    pub mean: f64,
-    /// The largest.
-    pub worst: f64,
-}
+use hitscope_core::film::{Noise, NoiseSum};
 
 /// The noise of each tile, so that a new tile changes the total without a look at all pixels.
 #[derive(Default)]
-pub(super) struct TileNoise(Vec<Option<TileErrors>>);
-
-/// The standard errors of a tile's pixels.
-#[derive(Clone, Copy)]
-struct TileErrors {
-    sum: f64,
-    worst: f64,
-    count: usize,
-}
+pub(super) struct TileNoise(Vec<Option<NoiseSum>>);
 
 impl TileNoise {
     /// Unknown noise of this many tiles.
@@ -32,47 +15,26 @@ impl TileNoise {
 
     /// Updates a tile that has received samples.
     pub fn update(&mut self, film: &Film, tile: usize) {
-        let rect = film.plan().tile_rect(tile);
-        let mut errors = TileErrors {
-            sum: 0.0,
-            worst: 0.0,
-            count: 0,
-        };
-        for y in rect.min.y..rect.max.y {
-            for x in rect.min.x..rect.max.x {
-                let Some(error) = film.standard_error(UVec2::new(x, y)) else {
-                    return;
-                };
-                errors.sum += error;
-                errors.worst = errors.worst.max(error);
-                errors.count += 1;
-            }
-        }
-        self.0[tile] = Some(errors);
+        let sum = NoiseSum::of(film, film.plan().tile_rect(tile));
+        self.0[tile] = sum.or(self.0[tile]);
     }
 
     /// The noise of the picture; `None` while a pixel has fewer than two samples.
     pub fn total(&self) -> Option<Noise> {
-        let (mut sum, mut worst, mut count) = (0.0, 0.0_f64, 0);
+        let mut total = NoiseSum::default();
         for tile in &self.0 {
-            let tile = tile.as_ref()?;
-            sum += tile.sum;
-            worst = worst.max(tile.worst);
-            count += tile.count;
+            total.merge(tile.as_ref()?);
         }
-        (count > 0).then(|| Noise {
-            mean: sum / count as f64,
-            worst,
-        })
+        (!self.0.is_empty()).then(|| total.noise())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::Vec3;
+    use glam::{UVec2, Vec3};
     use hitscope_core::film::{SampleSum, TileSamples};
-    use hitscope_core::plan::{Plan, WorkUnit};
+    use hitscope_core::plan::{PixelRect, Plan, WorkUnit};
 
     #[test]
     fn the_noise_is_known_once_each_pixel_has_two_samples_and_agrees_with_the_film() {
@@ -93,10 +55,16 @@ mod tests {
             film.add(&TileSamples { unit, sums });
             noise.update(&film, tile);
         }
-        let total = noise.total().expect("two samples each");
-        // Of 0 and x: variance x²/2, standard error x/2. Columns 0 to 59 have the mean 29.5. f64 has 16 digits, of which
-        // the variance loses a few.
-        assert!((total.mean - 29.5 / 2.0).abs() < 1e-9, "{total:?}");
-        assert!((total.worst - 59.0 / 2.0).abs() < 1e-9, "{total:?}");
+        let (min, max) = (UVec2::ZERO, size);
+        let whole = NoiseSum::of(&film, PixelRect { min, max }).expect("two samples each");
+        let (total, whole) = (noise.total().expect("two samples each"), whole.noise());
+        // Sums of 3000 numbers of 16 digits in another order.
+        assert!(
+            (total.mean / whole.mean - 1.0).abs() < 1e-12,
+            "{total:?} {whole:?}"
+        );
+        assert!((total.worst / whole.worst - 1.0).abs() < 1e-12);
+        // Of 0 and x: the mean and the standard error are x/2, so that the mean error is all of the luminance.
+        assert!((total.mean - 1.0).abs() < 1e-6, "{total:?}");
     }
 }

@@ -29,15 +29,30 @@ impl Tracer {
         }
     }
 
-    /// Ends refinement if a limit is reached.
+    /// Ends refinement if a limit is reached, also in the middle of a pass, but not before the first one is done.
     pub(super) fn check_limits(&mut self) {
         if let (None, Some(posted)) = (self.stopped, &self.posted)
             && posted.is_lit()
+            && self.film.passes_done() > 0
+            && !self.film.is_complete()
         {
-            let secs = posted.busy_secs / self.renderer.thread_count() as f64;
+            let secs = posted.refined.elapsed().as_secs_f64();
             let (samples, noise) = (self.film.samples(), self.noise.total());
             self.stopped = self.limits.reached(secs, samples, noise);
             self.apply_pause();
+        }
+    }
+
+    /// Requests a frame for the end of the time limit: until then, no tile may arrive.
+    pub(super) fn await_time_limit(&self, ctx: &egui::Context) {
+        if let (Some(limit), Some(posted)) = (self.limits.secs, &self.posted)
+            && posted.is_lit()
+            && !self.is_paused
+            && !self.is_finished()
+        {
+            let left = limit - posted.refined.elapsed().as_secs_f64();
+            // Days are later than anyone looks.
+            ctx.request_repaint_after(Duration::from_secs_f64(left.clamp(0.001, 86_400.0)));
         }
     }
 
@@ -62,6 +77,10 @@ impl Tracer {
     }
 
     pub(super) fn apply_pause(&mut self) {
+        if let Some(posted) = &mut self.posted {
+            let is_running = !self.is_paused && self.stopped.is_none();
+            posted.refined.run(is_running);
+        }
         if self.is_paused || self.is_held || self.stopped.is_some() {
             self.renderer.pause();
         } else {

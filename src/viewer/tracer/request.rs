@@ -1,5 +1,6 @@
 //! A request for a picture.
 
+use super::stopwatch::Stopwatch;
 use hitscope_core::integrator::{Context, Integrator, Lighting};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -55,8 +56,8 @@ pub(super) struct PostedRequest {
     pub lasted: Duration,
     /// Whether the preview is being traced.
     pub is_preview: bool,
-    /// Time that threads have spent on it, in seconds of one thread; without the preview.
-    pub busy_secs: f64,
+    /// Wall-clock time since the view, or its preview, was posted; without pauses.
+    pub refined: Stopwatch,
 }
 
 impl PostedRequest {

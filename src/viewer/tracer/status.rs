@@ -1,6 +1,7 @@
 //! Figures for the status line.
 
-use super::{Noise, StopReason, Tracer};
+use super::{StopReason, Tracer};
+use hitscope_core::film::Noise;
 use std::time::Duration;
 
 /// Figures for the status line.

@@ -3,7 +3,7 @@
 use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes};
 use exr::prelude::{SmallVec, WritableImage, f16};
 use glam::{UVec2, Vec3};
-use hitscope_core::light::{Environment, EnvironmentMap, LoadedMap};
+use hitscope_core::light::{EnvironmentMap, LoadedMap};
 use hitscope_core::obj::LoadError;
 use hitscope_core::progress::Progress;
 use std::f64::consts::{FRAC_1_PI, PI};
@@ -120,6 +120,20 @@ fn numbers_that_are_not_finite_or_negative_are_replaced_and_counted() {
 }
 
 #[test]
+fn the_luminance_of_a_grey_exr_file_is_read() {
+    let ramp = || FlatSamples::F32((1..=4).map(|k| k as f32).collect());
+    let map = read(&exr(vec![("Y", ramp())], Encoding::SMALL_LOSSLESS));
+    assert_eq!(map.expect("a picture").map.radiance(Vec3::Y).x, 1.5);
+    // Colours relative to the luminance aren't grey.
+    let file = exr(
+        vec![("RY", ramp()), ("Y", ramp())],
+        Encoding::SMALL_LOSSLESS,
+    );
+    let error = read(&file).expect_err("refused").to_string();
+    assert!(error.contains("the channels R, G and B"), "{error}");
+}
+
+#[test]
 fn broken_files_give_one_clear_line() {
     for (bytes, expected) in [
         (Vec::new(), "neither a Radiance HDR nor an OpenEXR picture"),
@@ -132,6 +146,7 @@ fn broken_files_give_one_clear_line() {
         (hdr("#?RADIANCE", "-Y 0 +X 1"), "no pixels"),
         (hdr("#?RADIANCE", "-Y 2 +X 0"), "no pixels"),
         (hdr("#?RADIANCE", "-Y 2"), "line"),
+        (b"#?RADIANCE\n\n".to_vec(), "the file is truncated"),
         (hdr("#?RADIANCE", "-Y 9 +X 1"), "truncated"),
         (hdr("#?RADIANCE", "-Y 65536 +X 65536"), "--max-memory"),
         (hdr("#?RADIANCE\nEXPOSURE=0", "-Y 2 +X 1"), "EXPOSURE"),
@@ -215,10 +230,8 @@ fn the_built_in_studio_is_what_its_program_makes() {
     let stored = include_bytes!("../../../assets/studio.hdr");
     assert!(stored[..] == studio_environment::file());
     assert!(stored.len() <= 64 << 10);
-    let Environment::Map(studio) = Environment::built_in() else {
-        panic!("a map");
-    };
-    assert_eq!(studio.map().size(), UVec2::new(128, 64));
+    let studio = EnvironmentMap::built_in();
+    assert_eq!(studio.size(), UVec2::new(128, 64));
     // White that faces up reflects the radiance 1: a sum over directions.
     const N: u32 = 200;
     let mut sum = 0.0;
@@ -227,7 +240,7 @@ fn the_built_in_studio_is_what_its_program_makes() {
         let (sin_phi, cos_phi) = (2.0 * PI * f64::from(k % N) / f64::from(N)).sin_cos();
         let sin = (1.0 - cos * cos).sqrt();
         let dir = glam::DVec3::new(sin * cos_phi, cos, sin * sin_phi).as_vec3();
-        sum += cos * f64::from(studio.map().radiance(dir).y);
+        sum += cos * f64::from(studio.radiance(dir).y);
     }
     let reflected = FRAC_1_PI * sum * 2.0 * PI / f64::from(N * N);
     // The file's eight bits, and two different sums over softboxes' edges.

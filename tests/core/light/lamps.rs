@@ -221,6 +221,28 @@ fn only_a_scene_without_any_light_gets_white_light() {
 }
 
 #[test]
+fn a_shape_without_a_bsdf_is_grey_from_the_front_and_black_from_behind_as_in_mitsuba() {
+    let sky = r#"<emitter type="constant"/>"#;
+    for (kind, parameter) in KINDS {
+        let seen = |bsdf: &str| {
+            let loaded = loaded(&format!(
+                r#"<shape type="{kind}">{parameter}{bsdf}</shape>{sky}"#
+            ));
+            let scene = Arc::into_inner(loaded.scene).expect("no other owner");
+            let context = lit(scene, loaded.lights);
+            [1.0, -1.0].map(|z| {
+                let ray = Ray::new(Vec3::new(0.1, 0.2, z), Vec3::new(0.0, 0.0, -z));
+                radiance(&context, "path", &ray.expect("a ray")).expect("a hit")
+            })
+        };
+        let [front, back] = seen("");
+        assert!(front.min_element() > 0.0, "{kind}: {front}");
+        assert_eq!(back, DVec3::ZERO, "{kind}");
+        assert_eq!([front, back], seen(r#"<bsdf type="diffuse"/>"#), "{kind}");
+    }
+}
+
+#[test]
 fn the_studio_lights_an_open_plane_as_the_view_shaded_does() {
     let grey = Material {
         diffuse: Some(Vec3::new(0.2, 0.5, 0.8)),

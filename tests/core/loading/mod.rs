@@ -178,7 +178,8 @@ fn materials_and_the_view_of_the_sensor_are_kept() {
         material.and_then(|material| material.diffuse)
     };
     let red = Some(Vec3::new(0.5, 0.25, 0.0));
-    assert_eq!([diffuse(0), diffuse(1), diffuse(2)], [red, red, None]);
+    let default = Some(Vec3::splat(0.5));
+    assert_eq!([diffuse(0), diffuse(1), diffuse(2)], [red, red, default]);
     let view = scene.view.expect("a sensor");
     assert_eq!(view.eye.to_array(), [0.0, 0.0, 9.0]);
     assert!((view.forward + glam::DVec3::Z).length() < 1e-12);

@@ -58,7 +58,7 @@ fn a_file_that_is_no_library_or_picture_is_named_but_not_quoted() {
         warnings,
         [
             "material library “m.mtl”: 1 unknown statement skipped, on line 2",
-            "material library “m.mtl”: 1 “Kd” statement skipped, on line 3",
+            "material library “m.mtl”: 1 “Kd” statement skipped: a colour is one or three numbers that aren't negative, on line 3",
         ]
     );
 }

@@ -51,7 +51,8 @@ impl EnvironmentMap {
         loaded.map_err(|problem| problem.in_file(path))
     }
 
-    /// The map of [`Environment::built_in`](super::Environment::built_in).
+    /// The built-in studio: a large key light, a fill light, a light from behind, and a dim floor. A white horizontal
+    /// surface that faces up reflects the radiance 1.
     pub fn built_in() -> Arc<Self> {
         /// Made by `assets/studio_environment.rs`.
         static STUDIO: &[u8] = include_bytes!("../../../../assets/studio.hdr");
@@ -94,7 +95,7 @@ fn decoded(bytes: &[u8], max_memory: u64, progress: &Progress) -> Result<LoadedM
     let warning = (map.replaced() > 0).then(|| {
         let (replaced, all) = (map.replaced(), 3 * u64::from(size.x) * u64::from(size.y));
         Warning::of_file(format!(
-            "{replaced} of {all} numbers in the picture are negative, not finite or above {MAX_BRIGHTNESS:.1e}: those above become this limit, infinite ones the largest of the others, and all else 0"
+            "{replaced} of {all} numbers in the picture can't be used: negative ones and NaN count as 0, infinite ones as the largest of the others, larger ones than {MAX_BRIGHTNESS:.1e} as this limit"
         ))
     });
     Ok(LoadedMap {

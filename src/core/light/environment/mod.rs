@@ -30,13 +30,6 @@ pub enum Environment {
 }
 
 impl Environment {
-    /// The built-in studio: a large key light, a fill light, a light from behind, and a dim floor. A white horizontal
-    /// surface that faces up reflects the radiance 1.
-    pub fn built_in() -> Self {
-        let map = EnvironmentMap::built_in();
-        Self::Map(PlacedMap::new(map, MapPlacement::default()))
-    }
-
     /// The light from a unit direction.
     pub fn radiance(&self, dir: Vec3) -> Vec3 {
         match self {

@@ -1,6 +1,7 @@
 //! A measured environment with its orientation and brightness.
 
 use super::map::EnvironmentMap;
+use crate::camera::UpAxis;
 use crate::light::LightSample;
 use glam::{Mat3, Vec2, Vec3};
 use std::sync::Arc;
@@ -16,14 +17,25 @@ pub struct MapPlacement {
     pub scale: f32,
 }
 
-impl Default for MapPlacement {
-    /// The y axis is up, and the radiance is that of the file.
-    fn default() -> Self {
+impl MapPlacement {
+    /// A placement with an axis of the world up, the x axis of the map along that of the world, and the radiance of the
+    /// file.
+    pub fn upright(up_axis: UpAxis) -> Self {
         Self {
-            orientation: Mat3::IDENTITY,
+            orientation: match up_axis {
+                UpAxis::Y => Mat3::IDENTITY,
+                UpAxis::Z => Mat3::from_cols(Vec3::X, Vec3::Z, Vec3::NEG_Y),
+            },
             rotation_radians: 0.0,
             scale: 1.0,
         }
+    }
+}
+
+impl Default for MapPlacement {
+    /// The y axis is up, and the radiance is that of the file.
+    fn default() -> Self {
+        Self::upright(UpAxis::Y)
     }
 }
 

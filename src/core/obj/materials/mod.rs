@@ -1,5 +1,6 @@
 //! Materials: libraries, their definitions, and textures.
 
+mod keywords;
 mod libraries;
 pub(crate) mod linear_picture;
 mod map_file;

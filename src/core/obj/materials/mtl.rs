@@ -4,6 +4,7 @@
 //!
 //! Source: Alias|Wavefront, "MTL material format", Appendix B1 of the Advanced Visualizer Manual, 1995.
 
+use super::keywords::{IGNORED, KEYWORDS, VALUES, expected_value};
 use super::map_file::MapFile;
 use super::map_statements::ReliefStatement;
 use crate::brightness::MAX_BRIGHTNESS;
@@ -58,63 +59,10 @@ impl Definition {
     }
 }
 
-/// Keywords that programs write for every material but shading doesn't use. Warnings about them would hide others.
-const IGNORED: [&str; 2] = ["ka", "sharpness"];
-
 /// The number of statements between cancellation checks: a millisecond's work.
 const STATEMENTS_PER_CHECK: usize = 1 << 12;
 /// The maximum size of a decompressed library: four times the maximum size of a referenced file.
 const MAX_BYTES: usize = 1 << 30;
-
-/// The keywords of the format and its common extensions, in lower case. Warnings quote no others: an OBJ can name
-/// any file as a library, and its content must not be shown.
-const KEYWORDS: [&str; 45] = [
-    "ka",
-    "kd",
-    "ks",
-    "ke",
-    "km",
-    "tf",
-    "tr",
-    "d",
-    "ns",
-    "ni",
-    "illum",
-    "sharpness",
-    "map_ka",
-    "map_kd",
-    "map_ks",
-    "map_ke",
-    "map_ns",
-    "map_ni",
-    "map_d",
-    "map_tr",
-    "map_bump",
-    "map_disp",
-    "map_refl",
-    "map_norm",
-    "map_aat",
-    "bump",
-    "disp",
-    "decal",
-    "refl",
-    "norm",
-    "pr",
-    "pm",
-    "ps",
-    "pc",
-    "pcr",
-    "aniso",
-    "anisor",
-    "map_pr",
-    "map_pm",
-    "map_ps",
-    "map_pc",
-    "map_pcr",
-    "map_ao",
-    "newmtl",
-    "map_opacity",
-];
 
 /// The wanted materials of a library, and warnings about it.
 pub(super) struct MaterialLibrary {
@@ -166,6 +114,8 @@ struct Parser {
     material_count: usize,
     /// Skipped statements by keyword.
     skipped: BTreeMap<String, Tally>,
+    /// Skipped statements of properties whose values are invalid, by keyword.
+    invalid: BTreeMap<String, Tally>,
     /// Statements with a clamped value, by keyword.
     clamped: BTreeMap<String, Tally>,
     /// Skipped statements whose keyword isn't in [`KEYWORDS`].
@@ -195,9 +145,14 @@ impl Parser {
             let outcome = format!("with a value above {most} clamped");
             describe(&quoted(keyword), tally, &outcome)
         });
+        let invalid = self.invalid.iter().map(|(keyword, &tally)| {
+            let outcome = format!("skipped: {}", expected_value(keyword));
+            describe(&quoted(keyword), tally, &outcome)
+        });
         let unknown =
             (self.unknown.count > 0).then(|| describe("unknown", self.unknown, "skipped"));
-        let mut by_line: Vec<(usize, String)> = skipped.chain(clamped).chain(unknown).collect();
+        let known = skipped.chain(clamped).chain(invalid);
+        let mut by_line: Vec<(usize, String)> = known.chain(unknown).collect();
         by_line.sort_by_key(|(line, _)| *line);
         by_line.into_iter().map(|(_, warning)| warning).collect()
     }
@@ -273,7 +228,9 @@ impl Parser {
         };
         let current = self.current.as_mut();
         let Some(skipped) = current.and_then(|material| material.apply(&lower_case, &rest)) else {
-            if KEYWORDS.contains(&lower_case.as_str()) {
+            if VALUES.contains(&lower_case.as_str()) && self.current.is_some() {
+                count_by_keyword(&mut self.invalid, keyword, statement.line);
+            } else if KEYWORDS.contains(&lower_case.as_str()) {
                 count_by_keyword(&mut self.skipped, keyword, statement.line);
             } else {
                 self.unknown.add(statement.line);

@@ -74,7 +74,7 @@ fn linear(
     let (texture, replaced) = Texture::linear(name, size, texels).ok_or("the picture is empty")?;
     let fault = (replaced > 0).then(|| {
         format!(
-            "{replaced} of {all} numbers in the picture are negative, not finite or above {MAX_BRIGHTNESS:.1e}: those above become this limit, all else 0"
+            "{replaced} of {all} numbers in the picture can't be used: larger ones than {MAX_BRIGHTNESS:.1e} count as this limit, negative and other ones as 0"
         )
     });
     Ok(Picture { texture, fault })

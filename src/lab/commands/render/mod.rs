@@ -22,12 +22,13 @@ pub use format::{PictureFormat, parse_png};
 use super::aim::AimArg;
 use super::light::refuse_without_effect;
 use super::output::{is_same_file, is_stream};
-use super::picture::NoiseSum;
+use super::picture::noise_text;
 use super::{CommandError, Output, PictureArgs, PreparedScene, PreparedView, Rendered};
 use crate::progress::{Meter, ProgressBar};
 use clap::Args;
 use format::parse_exr;
 use glam::UVec2;
+use hitscope_core::film::NoiseSum;
 use hitscope_core::integrator::{Comparison, Integrator, Setting};
 use hitscope_core::obj::shown;
 use hitscope_core::render::STRIP_BYTES;
@@ -109,7 +110,8 @@ pub struct RenderArgs {
     /// OpenEXR: the channel A, and colours premultiplied by it)
     #[arg(long)]
     pub transparent: bool,
-    /// Print the standard error of the pixels' luminance, on average and at most
+    /// Print the noise: the standard error of the pixels' luminance, on average and at most, in percent of the mean
+    /// luminance, without pixels that show no surface
     #[arg(long)]
     pub noise: bool,
     /// Draw a bar with the colours of a view of numbers to the right of the picture, and print its title and range
@@ -288,7 +290,7 @@ impl RenderArgs {
         }
         if self.format()? == PictureFormat::Exr {
             let rendered = view.trace(0..view.size().y, meter)?;
-            noise.add(&rendered);
+            noise.merge(&rendered.noise_sum());
             let (guides, alpha) = (rendered.guides.as_deref(), rendered.alpha.as_ref());
             output.write_exr(&rendered.film, guides, alpha)?;
             return Ok(noise);
@@ -303,7 +305,7 @@ impl RenderArgs {
             for rows in strips.rows() {
                 let rendered = view.trace(rows, meter)?;
                 if self.noise {
-                    noise.add(&rendered);
+                    noise.merge(&rendered.noise_sum());
                 }
                 let mut pixels = rendered.pixels();
                 if let Some(pen) = pen.as_deref_mut() {
@@ -334,7 +336,7 @@ impl RenderArgs {
             String::new()
         };
         if self.noise {
-            writeln!(out, "{name}{}", noise.noise())?;
+            writeln!(out, "{name}{}", noise_text(&noise.noise()))?;
         }
         if self.legend
             && let Some(scale) = view.scale()

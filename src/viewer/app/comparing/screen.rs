@@ -243,8 +243,7 @@ impl App {
         }
         let settings = self.other_settings();
         let traced = self.compared.traced.as_ref();
-        let is_lit = traced.is_some_and(|side| side.tracer.shows_lit());
-        let look = Look::of(&settings, is_lit);
+        let look = traced.map_or_else(Look::plain, |side| Look::of(&settings, &side.tracer));
         let display = if self.traced.tracer.shows_lit() {
             self.seen.settings.display()
         } else {

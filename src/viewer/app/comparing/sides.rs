@@ -77,6 +77,7 @@ impl App {
             self.open.load_options,
             kernel,
             self.preferences.scene_options(),
+            0.0,
             ctx,
         ));
     }

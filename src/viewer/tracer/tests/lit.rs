@@ -148,3 +148,22 @@ fn refinement_ends_at_a_limit_and_goes_on_without_it() {
         assert!(tracer.status().noise.is_some_and(|noise| noise.mean > 0.0));
     }
 }
+
+#[test]
+fn the_time_limit_is_by_the_clock_and_needs_no_tile_to_arrive() {
+    const LIMIT: Duration = Duration::from_secs(1);
+    let (mut tracer, scene) = (tracer(), ball());
+    tracer.request(lit(&scene, 0.0, 65536));
+    collect_until(&mut tracer, |tracer| {
+        tracer.is_lit() && tracer.film().passes_done() > 0
+    });
+    // No tile is collected meanwhile.
+    std::thread::sleep(LIMIT);
+    let limits = Limits {
+        noise: None,
+        secs: Some(LIMIT.as_secs_f64()),
+    };
+    tracer.set_limits(limits);
+    assert_eq!(tracer.status().stopped, Some(StopReason::Time));
+    assert!(tracer.is_finished() && !tracer.film().is_complete());
+}

@@ -16,8 +16,13 @@ pub(super) const START: &[u8] = &[0x76, 0x2f, 0x31, 0x01];
 
 /// The channels of a picture.
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
+/// The channel of a grey picture: its luminance.
+const GREY: &str = "Y";
+/// A channel of pictures that store colours relative to their luminance.
+const CHROMA: &str = "RY";
 
-/// Decodes the first layer with the channels R, G and B. An alpha channel is ignored: colours are stored multiplied by it.
+/// Decodes the first layer with the channels R, G and B, or else the first grey one with the channel Y. An alpha channel is
+/// ignored: colours are stored multiplied by it.
 pub(super) fn decode(
     bytes: &[u8],
     memory: Memory,
@@ -29,8 +34,11 @@ pub(super) fn decode(
     };
     let source = || Cancellable::new(bytes, progress);
     let header = MetaData::read_from_buffered(source(), false).map_err(problem)?;
-    let Some(layer) = header.headers.iter().find(|header| is_picture(header)) else {
-        return Err("no layer has the channels R, G and B".to_owned().into());
+    let layers = || header.headers.iter();
+    let coloured = layers().find(|header| is_picture(header));
+    let Some(layer) = coloured.or_else(|| layers().find(|header| is_grey(header))) else {
+        let message = "no layer has the channels R, G and B, or the channel Y alone";
+        return Err(message.to_owned().into());
     };
     let [width, height] = [layer.layer_size.0, layer.layer_size.1].map(u32::try_from);
     let (Ok(width), Ok(height)) = (width, height) else {
@@ -38,34 +46,60 @@ pub(super) fn decode(
     };
     let size = UVec2::new(width, height);
     let texels = Cell::new(black(size, memory)?);
+    let set = move |texels: &mut Vec<Vec3>, Size(x, y): Size<usize>, colour: Vec3| {
+        if let Some(texel) = texels.get_mut(y * width as usize + x) {
+            *texel = colour;
+        }
+    };
     let reader = read()
         .no_deep_data()
         .largest_resolution_level()
-        .specific_channels()
-        .required(CHANNELS[0])
-        .required(CHANNELS[1])
-        .required(CHANNELS[2])
-        .collect_pixels(
-            move |_, _| texels.take(),
-            move |texels: &mut Vec<Vec3>, Size(x, y), (r, g, b): (f32, f32, f32)| {
-                if let Some(texel) = texels.get_mut(y * width as usize + x) {
-                    *texel = Vec3::new(r, g, b);
-                }
-            },
-        )
-        .first_valid_layer()
-        .all_attributes();
-    let image = reader.non_parallel().from_buffered(source());
-    let texels = image.map_err(problem)?.layer_data.channel_data.pixels;
+        .specific_channels();
+    let texels = if coloured.is_some() {
+        let image = reader
+            .required(CHANNELS[0])
+            .required(CHANNELS[1])
+            .required(CHANNELS[2])
+            .collect_pixels(
+                move |_, _| texels.take(),
+                move |texels: &mut Vec<Vec3>, at, (r, g, b): (f32, f32, f32)| {
+                    set(texels, at, Vec3::new(r, g, b));
+                },
+            )
+            .first_valid_layer()
+            .all_attributes()
+            .non_parallel()
+            .from_buffered(source());
+        image.map_err(problem)?.layer_data.channel_data.pixels
+    } else {
+        let image = reader
+            .required(GREY)
+            .collect_pixels(
+                move |_, _| texels.take(),
+                move |texels: &mut Vec<Vec3>, at, (grey,): (f32,)| {
+                    set(texels, at, Vec3::splat(grey));
+                },
+            )
+            .first_valid_layer()
+            .all_attributes()
+            .non_parallel()
+            .from_buffered(source());
+        image.map_err(problem)?.layer_data.channel_data.pixels
+    };
     Ok(Picture { size, texels })
 }
 
 fn is_picture(header: &Header) -> bool {
-    let names = || header.channels.list.iter().map(|channel| &channel.name);
-    !header.deep
-        && CHANNELS
-            .iter()
-            .all(|channel| names().any(|name| name.eq(channel)))
+    !header.deep && CHANNELS.iter().all(|channel| has(header, channel))
+}
+
+fn is_grey(header: &Header) -> bool {
+    !header.deep && has(header, GREY) && !has(header, CHROMA)
+}
+
+fn has(header: &Header, channel: &str) -> bool {
+    let mut channels = header.channels.list.iter();
+    channels.any(|known| known.name.eq(channel))
 }
 
 fn message(error: &exr::error::Error) -> String {

@@ -70,6 +70,8 @@ fn message(error: &ImageError) -> String {
             }
             _ => text,
         },
+        // The header ends before the line with the size.
+        _ if text.contains("EOF") => "the file is truncated".to_owned(),
         _ => text,
     }
 }

@@ -21,23 +21,25 @@ fn unusual_statements_do_not_affect_other_materials() {
     assert_eq!(named, ["a #1", "c", "d"]);
     let diffuse: Vec<_> = materials.iter().map(|m| m.material.diffuse).collect();
     assert_eq!(diffuse, [Some(Vec3::splat(0.5)), Some(Vec3::X), None]);
-    let skipped = |n: u32, keyword: &str, line: u32| {
+    let skipped = |n: u32, keyword: &str, why: &str, line: u32| {
         let (ending, first) = if n == 1 {
             ("", "")
         } else {
             ("s", "the first ")
         };
         format!(
-            "material library “m.mtl”: {n} “{keyword}” statement{ending} skipped, {first}on line {line}"
+            "material library “m.mtl”: {n} “{keyword}” statement{ending} skipped{why}, {first}on line {line}"
         )
     };
+    let colour = ": a colour is one or three numbers that aren't negative";
+    let illum = ": illum is a whole number from 0 to 10";
     assert_eq!(
         warnings,
         [
-            skipped(3, "Kd", 3),
-            skipped(1, "illum", 4),
-            skipped(1, "map_Kd", 5),
-            skipped(1, "Ps", 11)
+            skipped(3, "Kd", colour, 3),
+            skipped(1, "illum", illum, 4),
+            skipped(1, "map_Kd", "", 5),
+            skipped(1, "Ps", "", 11)
         ]
     );
 }
