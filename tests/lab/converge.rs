@@ -78,15 +78,15 @@ fn impossible_settings_are_refused() {
     for (setting, why) in [
         (
             "normal",
-            "the colours of “normal” aren't light; expected direct, whitted or path",
+            "the colours of “normal” aren't light; expected shaded, direct, whitted or path",
         ),
         (
             "ao",
-            "the colours of “ao” aren't light; expected direct, whitted or path",
+            "the colours of “ao” aren't light; expected shaded, direct, whitted or path",
         ),
         (
             "pth",
-            "there is no view “pth”; expected direct, whitted or path",
+            "there is no view “pth”; expected shaded, direct, whitted or path",
         ),
         ("path,depth=x", "depth is a whole number, not “x”"),
         ("direct,depth=2", "depth has no effect on the view “direct”"),

@@ -255,7 +255,7 @@ fn about_shows_the_version_and_the_graphics_adapter() {
 #[test]
 fn tooltips_end_in_the_key() {
     let Some(mut window) = bare() else { return };
-    for (title, keys) in [("Wireframe", "(W)"), ("Open…", "(Ctrl+O)")] {
+    for (title, keys) in [("Wireframe", "(W or E)"), ("Open…", "(Ctrl+O)")] {
         let button = window.get_by_role_and_label(Role::Button, title);
         let about = button
             .accesskit_node()

@@ -270,6 +270,7 @@ fn the_group_of_the_pick_can_be_framed() {
     press(&mut window, Key::Period);
     let triangle = turntable(&window).distance;
     window.key_press_modifiers(Modifiers::SHIFT, Key::Period);
-    window.run_steps(3);
-    assert!(turntable(&window).distance > triangle);
+    crate::harness::wait(&mut window, "the group", |app| {
+        app.turntable().distance > triangle
+    });
 }

@@ -88,7 +88,7 @@ fn the_largest_picture_needs_little_memory_which_cancel_frees() {
         click(&mut window, "EXR");
         click(&mut window, "Render");
         let notice = window.state().notice().expect("refused").to_owned();
-        let expected = "a picture of 16384x16384 pixels takes 22784 MB; the limit is 8192 MB";
+        let expected = "a picture of 16384x16384 pixels takes 26880 MB; the limit is 8192 MB";
         assert!(notice.contains(expected), "{notice}");
         assert_eq!(window.state().rendered_part(), None);
         // Closes the dialog and the message.

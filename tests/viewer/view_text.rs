@@ -139,14 +139,14 @@ fn a_pasted_view_needs_an_eye_alone_and_a_text_that_is_no_view_gives_a_reason() 
 #[test]
 fn a_view_with_extreme_numbers_is_shown_or_refused() {
     let Some(mut window) = bare() else { return };
-    let far = "--eye 1e38,1,1 --target 0,0,0 --fov 179";
+    let far = "--eye 1e12,1,1 --target 0,0,0 --fov 179";
     paste(&mut window, far);
     let app = window.state();
     assert_eq!((app.notice(), app.toasts()), (None, vec![PASTED]));
     let eye = app.turntable().camera(UVec2::new(8, 8)).exact_eye();
-    assert!((eye.x - 1e38).abs() < 1e30, "{eye}");
+    assert!((eye.x - 1e12).abs() < 1e4, "{eye}");
     let before = *app.turntable();
-    for too_far in ["--eye 3e38,1,1 --target 0,0,0", "--eye 0,0,9 --ortho 1e38"] {
+    for too_far in ["--eye 1e38,1,1 --target 0,0,0", "--eye 0,0,9 --ortho 1e38"] {
         paste(&mut window, too_far);
         let notice = window.state().notice().expect("a reason");
         assert!(notice.contains("too far away"), "{notice}");

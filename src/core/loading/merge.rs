@@ -9,6 +9,7 @@ use crate::mesh::{
 use crate::scene_file::{self, Place, Shape};
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
 use std::collections::HashMap;
+use std::iter::repeat_n;
 use std::sync::Arc;
 
 /// A mesh of the scene before it is merged.
@@ -281,17 +282,22 @@ impl Merged {
     }
 
     fn append_materials(&mut self, attributes: &Attributes) {
-        if attributes.materials.entries().is_empty() {
-            let has_colours = !attributes.colours.is_empty();
-            self.materials.push(match has_colours {
-                true => Material::default(),
-                false => without_bsdf(),
-            });
+        let entries = attributes.materials.entries();
+        // Triangles without a material have the default one.
+        let is_bare = entries.iter().all(|entry| *entry == Material::default());
+        if is_bare {
+            let material = match attributes.colours.is_empty() {
+                true => without_bsdf(),
+                false => Material::default(),
+            };
+            let count = entries.len().max(1);
+            self.materials.extend(repeat_n(material, count));
+            return;
         }
         let first_texture = self.textures.len() as u32;
         self.textures.extend_from_slice(&attributes.textures);
         self.materials
-            .extend(attributes.materials.entries().iter().map(|material| {
+            .extend(entries.iter().map(|material| {
                 let mut material = material.clone();
                 for map in material.maps_mut() {
                     map.texture += first_texture;

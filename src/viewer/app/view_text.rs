@@ -43,8 +43,10 @@ impl App {
         let axes = [eye, -camera.back(), camera.up()];
         let bounds = scene.bounds_with_elements();
         let (projection, up_axis) = (camera.projection(), self.seen.settings.up_axis());
-        let mut view = Turntable::looking(axes, projection, up_axis, bounds)
-            .map_err(|error| error.to_string())?;
+        // The camera is valid; only its distance may leave no digits for a direction.
+        let too_far = || "the camera would be too far away".to_owned();
+        let mut view =
+            Turntable::looking(axes, projection, up_axis, bounds).map_err(|_| too_far())?;
         if let Some(target) = args.target {
             view.pivot = target - scene.mesh().origin();
         }
@@ -59,7 +61,7 @@ impl App {
         if is_of(&view, &camera) {
             Ok(view)
         } else {
-            Err("the camera would be too far away".to_owned())
+            Err(too_far())
         }
     }
 }

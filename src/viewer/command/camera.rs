@@ -8,7 +8,8 @@ use egui::Key;
 use hitscope_core::camera::{StandardView, UpAxis};
 
 const FRAME: Place = Place::new(Menu::Camera, 0);
-const DIRECTION: Place = Place::new(Menu::Camera, 1);
+const DIRECTION: Place = Place::submenu(Menu::Camera, 1, "Look from");
+const ORBIT: Place = Place::submenu(Menu::Camera, 1, "Orbit");
 const PROJECTION: Place = Place::new(Menu::Camera, 2);
 const UP_AXIS: Place = Place::new(Menu::Camera, 3);
 const NAVIGATION: Place = Place::new(Menu::Camera, 4);
@@ -118,34 +119,46 @@ pub(super) const ROWS: &[Command] = &[
         "Looks from above, the front and the right",
         |app, ctx, _| app.look_from(StandardView::Isometric, ctx),
     ),
-    look_from(
-        "orbit-left",
-        &[key(Key::Num4)],
-        "Orbit left",
-        "Orbits 15° to the left",
-        |app, ctx, _| app.orbit_by(-ORBIT_STEP, 0.0, ctx),
-    ),
-    look_from(
-        "orbit-right",
-        &[key(Key::Num6)],
-        "Orbit right",
-        "Orbits 15° to the right",
-        |app, ctx, _| app.orbit_by(ORBIT_STEP, 0.0, ctx),
-    ),
-    look_from(
-        "orbit-up",
-        &[key(Key::Num8)],
-        "Orbit up",
-        "Orbits 15° upwards",
-        |app, ctx, _| app.orbit_by(0.0, ORBIT_STEP, ctx),
-    ),
-    look_from(
-        "orbit-down",
-        &[key(Key::Num2)],
-        "Orbit down",
-        "Orbits 15° downwards",
-        |app, ctx, _| app.orbit_by(0.0, -ORBIT_STEP, ctx),
-    ),
+    Command {
+        place: ORBIT,
+        ..look_from(
+            "orbit-left",
+            &[key(Key::Num4)],
+            "Orbit left",
+            "Orbits 15° to the left",
+            |app, ctx, _| app.orbit_by(-ORBIT_STEP, 0.0, ctx),
+        )
+    },
+    Command {
+        place: ORBIT,
+        ..look_from(
+            "orbit-right",
+            &[key(Key::Num6)],
+            "Orbit right",
+            "Orbits 15° to the right",
+            |app, ctx, _| app.orbit_by(ORBIT_STEP, 0.0, ctx),
+        )
+    },
+    Command {
+        place: ORBIT,
+        ..look_from(
+            "orbit-up",
+            &[key(Key::Num8)],
+            "Orbit up",
+            "Orbits 15° upwards",
+            |app, ctx, _| app.orbit_by(0.0, ORBIT_STEP, ctx),
+        )
+    },
+    Command {
+        place: ORBIT,
+        ..look_from(
+            "orbit-down",
+            &[key(Key::Num2)],
+            "Orbit down",
+            "Orbits 15° downwards",
+            |app, ctx, _| app.orbit_by(0.0, -ORBIT_STEP, ctx),
+        )
+    },
     Command {
         name: "orthographic",
         keys: &[key(Key::Num5)],

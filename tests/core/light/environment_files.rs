@@ -155,16 +155,16 @@ fn broken_files_give_one_clear_line() {
             hdr("#?RADIANCE\nFORMAT=32-bit_rle_xyze", "-Y 2 +X 1"),
             "FORMAT",
         ),
-        (b"#?RADIANCE".to_vec(), "header"),
+        (b"#?RADIANCE".to_vec(), "the file is truncated"),
     ] {
         let message = refusal(&bytes);
         assert!(message.contains(expected), "{message}, not {expected}");
     }
-    let grey = exr(
-        vec![("Y", FlatSamples::F32(vec![1.0; 4]))],
+    let depth = exr(
+        vec![("Z", FlatSamples::F32(vec![1.0; 4]))],
         Encoding::UNCOMPRESSED,
     );
-    assert!(refusal(&grey).contains("channels R, G and B"));
+    assert!(refusal(&depth).contains("channels R, G and B"));
 }
 
 #[test]
