@@ -113,7 +113,8 @@ fn a_broken_list_of_cameras_is_an_error_with_file_line_and_field() {
     assert!(!found.is_usage());
     let message = found.to_string();
     assert!(
-        message.contains("cameras.json:2: camera 1: eye: expected a list of 3 values, found 2 values"),
+        message
+            .contains("cameras.json:2: camera 1: eye: expected a list of 3 values, found 2 values"),
         "{message}"
     );
     let missing = error(&folder, "@cube.obj --cameras @none.json -o @{index}.png");

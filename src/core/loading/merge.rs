@@ -296,14 +296,13 @@ impl Merged {
         }
         let first_texture = self.textures.len() as u32;
         self.textures.extend_from_slice(&attributes.textures);
-        self.materials
-            .extend(entries.iter().map(|material| {
-                let mut material = material.clone();
-                for map in material.maps_mut() {
-                    map.texture += first_texture;
-                }
-                material
-            }));
+        self.materials.extend(entries.iter().map(|material| {
+            let mut material = material.clone();
+            for map in material.maps_mut() {
+                map.texture += first_texture;
+            }
+            material
+        }));
     }
 
     /// Appends the triangles that can be traced. Their corners' values are already there.

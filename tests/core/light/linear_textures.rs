@@ -60,7 +60,8 @@ fn textures_of_material_libraries_emit_and_reflect_their_linear_numbers() {
     let warnings = warnings(&loaded);
     assert_eq!(warnings.len(), 2, "{warnings:?}");
     assert!(
-        warnings[0].starts_with("texture “bright.exr”: 1 of 3 numbers in the picture can't be used")
+        warnings[0]
+            .starts_with("texture “bright.exr”: 1 of 3 numbers in the picture can't be used")
     );
     assert!(
         warnings[1].starts_with("texture “broken.exr”: "),
