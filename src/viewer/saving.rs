@@ -43,11 +43,11 @@ impl Saving {
         let file = free_path(path, "xml")?;
         let loaded = &document.loaded;
         let view = StartView::of_camera(camera, loaded.scene.mesh().origin());
-        let description = loaded.description.clone();
+        let loaded = loaded.clone();
         let path = file.clone();
         let write_scene = move || {
             let folder = file.parent().unwrap_or(Path::new(""));
-            let text = scene_text(description.as_deref(), &own, &view, folder);
+            let text = scene_text(&loaded, &own, &view, folder);
             let text = text.map_err(|error| error.to_string())?;
             write(&file, &text)
         };

@@ -55,8 +55,7 @@ fn is_the_same_again(path: &Path, eye: DVec3) {
     ] {
         let camera = camera(&scene, eye, projection);
         let view = StartView::of_camera(&camera, scene.scene.mesh().origin());
-        let description = scene.description.as_deref();
-        let text = scene_text(description, path, &view, elsewhere.path()).expect("text");
+        let text = scene_text(&scene, path, &view, elsewhere.path()).expect("text");
         let saved = elsewhere.path().join("saved.xml");
         std::fs::write(&saved, text).expect("written");
         let again = load(&saved);
@@ -114,7 +113,7 @@ fn a_scene_file_keeps_its_contents_and_its_files_are_found_from_another_folder()
     let eye = DVec3::new(0.0, 0.0, 9.0);
     let camera = camera(&scene, eye, Projection::Perspective { fov_y_radians: 1.0 });
     let view = StartView::of_camera(&camera, DVec3::ZERO);
-    let text = scene_text(scene.description.as_deref(), &path, &view, folder.path()).expect("text");
+    let text = scene_text(&scene, &path, &view, folder.path()).expect("text");
     assert!(text.contains(r#"value="mesh.obj""#), "relative: {text}");
     let saved = folder.path().join("saved.xml");
     std::fs::write(&saved, text).expect("written");
@@ -128,12 +127,7 @@ fn a_scene_file_keeps_its_contents_and_its_files_are_found_from_another_folder()
     assert_eq!(again.sensors[0].sample_count, 32);
     let xml = std::fs::read_to_string(&saved).expect("written");
     assert!(xml.contains(r#"value="sky.hdr""#), "relative: {xml}");
-    let elsewhere = scene_text(
-        scene.description.as_deref(),
-        &path,
-        &view,
-        Path::new("/other"),
-    );
+    let elsewhere = scene_text(&scene, &path, &view, Path::new("/other"));
     let sky = folder.path().join("sky.hdr");
     let elsewhere = elsewhere.expect("text");
     assert!(

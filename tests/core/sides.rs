@@ -213,8 +213,8 @@ fn flipped_normals_are_saved() {
         height: 0.0,
         size: glam::UVec2::splat(8),
     };
-    let (description, path) = (loaded.description.as_deref(), folder.path());
-    let text = scene_text(description, &path.join("scene.xml"), &view, path).expect("text");
+    let path = folder.path();
+    let text = scene_text(&loaded, &path.join("scene.xml"), &view, path).expect("text");
     assert!(
         text.contains(r#"<boolean name="flip_normals" value="true"/>"#),
         "{text}"

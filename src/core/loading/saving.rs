@@ -1,28 +1,32 @@
 //! What was loaded, as the text of a scene file.
 
-use super::StartView;
+use super::{LoadedScene, StartView};
+use crate::mesh::{self, TriangleMesh};
 use crate::scene_file::{
-    self, EmitterKind, Obj, Parameter, Place, Plugin, SceneFile, Shape, ShapeKind, Value,
-    WriteError,
+    self, Bsdf, EmitterKind, Obj, Parameter, Place, Plugin, SceneFile, Shape, ShapeKind, Side,
+    Value, WriteError,
 };
+use crate::statements::CLAY;
 use glam::DMat4;
 use std::path::Path;
 
 /// The text of a scene file that will stand in `folder`, for what was loaded from `path`, with a view as its first
 /// sensor.
 ///
-/// A scene file, given its `description`, keeps its contents; the view replaces its first sensor. An OBJ file becomes
-/// the scene's only shape.
+/// A scene file keeps its contents; the view replaces its first sensor. An OBJ file becomes the scene's only shape, of clay
+/// if it has neither materials nor colours.
 ///
 /// # Errors
 /// A name has no form in the format; see [`scene_file::to_xml`].
 pub fn scene_text(
-    description: Option<&SceneFile>,
+    loaded: &LoadedScene,
     path: &Path,
     view: &StartView,
     folder: &Path,
 ) -> Result<String, WriteError> {
-    let mut file = description.map_or_else(|| of_mesh(path), SceneFile::clone);
+    let description = loaded.description.as_deref();
+    let of_mesh = || of_mesh(path, loaded.scene.mesh());
+    let mut file = description.map_or_else(of_mesh, SceneFile::clone);
     let mut sensor = view.sensor();
     match file.sensors.first_mut() {
         Some(first) => {
@@ -45,8 +49,13 @@ pub fn scene_text(
 }
 
 /// A scene of one OBJ file.
-fn of_mesh(path: &Path) -> SceneFile {
+fn of_mesh(path: &Path, mesh: &TriangleMesh) -> SceneFile {
+    let attributes = mesh.attributes();
+    let mut materials = attributes.materials.entries().iter();
+    let is_bare = attributes.colours.is_empty()
+        && materials.all(|material| *material == mesh::Material::default());
     SceneFile {
+        materials: if is_bare { vec![clay()] } else { Vec::new() },
         shapes: vec![Shape {
             place: Place::default(),
             id: None,
@@ -58,10 +67,25 @@ fn of_mesh(path: &Path) -> SceneFile {
             }),
             to_world: DMat4::IDENTITY,
             flip_normals: false,
-            material: None,
+            material: is_bare.then_some(0),
             emitter: None,
         }],
         ..SceneFile::default()
+    }
+}
+
+/// The material of meshes without one.
+fn clay() -> scene_file::Material {
+    let side = Side::from(Bsdf::Diffuse {
+        reflectance: CLAY.as_dvec3(),
+    });
+    scene_file::Material {
+        place: Place::default(),
+        id: None,
+        front: side.clone(),
+        back: Some(side),
+        opacity: 1.0,
+        opacity_texture: None,
     }
 }
 

@@ -211,9 +211,8 @@ impl InfoArgs {
         let scene = &loaded.scene;
         let first = || StartView::of_camera(&default_camera(scene), scene.mesh().origin());
         let view = loaded.view.unwrap_or_else(first);
-        let description = loaded.description.as_deref();
         // File names become relative to the current directory.
-        let text = scene_text(description, &self.file, &view, Path::new(""));
+        let text = scene_text(loaded, &self.file, &view, Path::new(""));
         let text = text.map_err(|error| CommandError::Other(error.to_string()))?;
         Ok(out.write_all(text.as_bytes())?)
     }
