@@ -128,7 +128,7 @@ impl Plan {
         }
     }
 
-    /// The passes over some rows of the picture, as a picture of their own. Its samples are those of the whole picture.
+    /// The plan of some rows as a picture of their own, with the same samples as in the whole picture.
     #[must_use]
     pub fn of_rows(&self, rows: Range<u32>) -> Self {
         Self {
@@ -138,7 +138,7 @@ impl Plan {
         }
     }
 
-    /// The place of a pixel in the whole picture, which its samples depend on.
+    /// The coordinates of a pixel in the whole picture, which determine its samples.
     pub(crate) fn in_whole(&self, pixel: UVec2) -> UVec2 {
         UVec2::new(pixel.x, pixel.y + self.first_row)
     }

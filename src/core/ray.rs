@@ -42,8 +42,8 @@ pub enum RayError {
     IntervalEmpty,
 }
 
-/// Longest components of directions that need no rescaling: from 2⁻¹⁶ to 2¹⁶, so that the products of a direction and
-/// two distances stay well inside the range of f32.
+/// The range of the largest component of directions that need no rescaling: from 2⁻¹⁶ to 2¹⁶, so that the products of a
+/// direction and two distances stay well inside the range of f32.
 const USUAL: std::ops::Range<f32> = 1.0 / 65536.0..65536.0;
 
 impl Ray {
@@ -80,7 +80,7 @@ impl Ray {
             scale: 0,
             exclude: None,
         };
-        // NaNs fail the comparisons.
+        // Comparisons with NaN are false.
         let size = dir.abs();
         let is_usual =
             size.cmplt(Vec3::splat(USUAL.end)).all() && size.max_element() >= USUAL.start;
@@ -90,7 +90,7 @@ impl Ray {
         ray.checked()
     }
 
-    /// The ray with a direction of usual length.
+    /// Checks a ray, and rescales a direction of unusual length.
     #[cold]
     fn checked(self) -> Result<Self, RayError> {
         if !self.origin.is_finite() {

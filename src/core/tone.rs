@@ -126,8 +126,10 @@ impl Display {
         encoded(self.shown(linear))
     }
 
-    /// The same for light of a pixel of which a part from 0 to 1 shows a background, a linear colour that exposure and tone
-    /// curve don't change.
+    /// The colour of a pixel of which a part, from 0 to 1, shows the background, as 8-bit sRGB with alpha 255.
+    ///
+    /// `light` and `background` are linear; `light` is the sum of the other parts. Exposure and tone curve don't change
+    /// the background.
     pub fn encode_over(&self, light: Vec3, part: f32, background: Vec3) -> [u8; 4] {
         let rest = 1.0 - part;
         if rest <= 0.0 {
@@ -136,7 +138,7 @@ impl Display {
         encoded(rest * self.shown(light / rest) + part * background)
     }
 
-    /// The linear colour from 0 to 1 that the screen shows.
+    /// The linear colour after exposure and tone curve.
     fn shown(&self, linear: Vec3) -> Vec3 {
         self.curve.map(self.factor * linear)
     }

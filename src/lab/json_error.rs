@@ -1,11 +1,11 @@
-//! Errors of JSON texts in plain words.
+//! Messages about invalid JSON for users.
 
 use hitscope_core::counts::counted;
 use hitscope_core::obj::shortened;
 use serde_json::Error;
 use serde_json::error::Category;
 
-/// What is wrong with a text that isn't the JSON that was expected, without the place in the text.
+/// The message about a JSON text that can't be parsed, without the position in the text.
 pub fn explained(error: &Error) -> String {
     let text = error.to_string();
     let position = format!(" at line {} column {}", error.line(), error.column());

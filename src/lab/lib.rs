@@ -11,7 +11,7 @@
 //! | [`surface`] | the surface at a hit |
 //! | [`frames`] | rays of f64 in the file's coordinates, as the f32 rays that kernels trace |
 //! | [`json`] | JSON whose numbers read back as doubles |
-//! | [`json_error`] | errors of JSON texts in plain words |
+//! | [`json_error`] | messages about invalid JSON for users |
 //! | [`measure`] | measurements of speed and accuracy |
 //! | [`picture_comparison`] | error figures of pictures |
 //! | [`progress`] | progress of long work, and its bar on the terminal |

@@ -129,7 +129,7 @@ pub fn check_format(text: &str) -> Result<(), String> {
     Ok(())
 }
 
-/// Why a text isn't a session, and what the user can do.
+/// The message about a text that isn't a readable session, with what the user can do.
 pub fn unreadable(text: &str, error: &serde_json::Error) -> String {
     if text.trim().is_empty() {
         return "the session file is empty; save the session again".to_owned();

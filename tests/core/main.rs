@@ -20,6 +20,7 @@ mod packets;
 
 // Pictures rendered in strips: bit-identical to those rendered whole.
 mod strips;
+
 // Every tree: bit-identical results.
 mod trees;
 

@@ -12,7 +12,7 @@
 //! | `interval_roots` | roots of a polynomial with interval coefficients |
 //! | `remainders` | integer polynomials and their signed remainder sequences |
 //! | `quick_line` | roots in plain f64 with a bound of their error |
-//! | `quick_span` | the crossing with a plane of two half axes in plain f64 with a bound of its error |
+//! | `quick_span` | the crossing with the plane of two half axes in plain f64, with a bound of its error |
 //! | `isolation` | intervals that contain one root of an integer polynomial each |
 //! | `algebraic` | exact roots: comparison, signs of polynomials, rounding |
 //! | `pieces` | shapes as polynomials along a ray |

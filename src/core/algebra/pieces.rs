@@ -39,8 +39,10 @@ pub trait Pieces {
     /// A point near the shape. It affects the speed, but no answer.
     fn centre(&self) -> Vec3;
 
-    /// Bounds of the line's crossings with a shape that is a single piece of part 0: of all roots of its polynomial if it
-    /// has no conditions, else of the only root or of none. `None` if plain f64 doesn't decide, and for other shapes.
+    /// Bounds of the line's crossings with the shape; `None` if plain f64 doesn't decide.
+    ///
+    /// Only for shapes of a single piece of part 0. If the piece has no conditions, these are the bounds of all roots
+    /// of its polynomial; otherwise those of its only root, or none if that root violates a condition.
     #[inline(always)]
     fn quick_roots(&self, _line: &QuickLine) -> Option<RootIntervals> {
         None

@@ -1,31 +1,31 @@
 //! The crossing of a line with the plane of two half axes in plain f64, with an error bound derived in advance.
 //!
-//! The plane holds the points c + a·u + b·v, and n = u×v. u is also the largest relative error of an operation, 2⁻⁵³; |x|
-//! is the sum of the magnitudes of a vector's coordinates and ‖x‖ the largest of them. Constants in the code exceed those
-//! derived here, as in `quick_line`.
+//! The plane consists of the points c + a·u + b·v, and n = u×v. U = 2⁻⁵³ is the largest relative error of an operation.
+//! |x| is the sum of the magnitudes of a vector's coordinates, and ‖x‖ the largest of them. Constants in the code
+//! exceed those derived here, as in `quick_line`.
 //!
-//! Products of two f32 are exact, so the coordinates of n err relatively by u, as do those of f = o − c. Each term of n·f
-//! and n·d then errs by 3u and 2u, and the sums add 2u:
+//! Products of two f32 are exact, so the coordinates of n err relatively by U, as do those of f = o − c. Each term of
+//! n·f errs by 3U and each term of n·d by 2U, and the sums add 2U:
 //!
 //! ```text
-//! |δ(n·f)| ≤ 5u·Σ|nᵢfᵢ| < 8u·Σ|nᵢfᵢ|      |δ(n·d)| ≤ 4u·Σ|nᵢdᵢ| < 8u·Σ|nᵢdᵢ|
+//! |δ(n·f)| ≤ 5U·Σ|nᵢfᵢ| < 8U·Σ|nᵢfᵢ|      |δ(n·d)| ≤ 4U·Σ|nᵢdᵢ| < 8U·Σ|nᵢdᵢ|
 //! ```
 //!
 //! The line crosses the plane at t = −n·f / n·d. If the error of n·d is at most half of it,
 //!
 //! ```text
-//! |δt| ≤ 2·(|δ(n·f)| + |t|·|δ(n·d)|) / |n·d| + 2u|t|
+//! |δt| ≤ 2·(|δ(n·f)| + |t|·|δ(n·d)|) / |n·d| + 2U|t|
 //! ```
 //!
-//! The point there is c + p with p = f + t·d, whose coordinates err by δt·dᵢ, by u through f and the product, and by u through
-//! the sum: together by δp with |δp| ≤ |δt||d| + 3u(|f| + |t||d|). There, a·n² = p·(v×n) and b·n² = p·(n×u). A coordinate
-//! of v×n is at most 2‖v‖‖n‖ and errs by 6u‖v‖‖n‖, so a·n² errs by
+//! The crossing is c + p with p = f + t·d. The coordinates of p err by δt·dᵢ, by U through f and the product, and by U
+//! through the sum: together by δp with |δp| ≤ |δt||d| + 3U(|f| + |t||d|). At the crossing, a·n² = p·(v×n) and
+//! b·n² = p·(n×u). A coordinate of v×n is at most 2‖v‖‖n‖ and errs by 6U‖v‖‖n‖, so a·n² errs by
 //!
 //! ```text
-//! |δ(a·n²)| ≤ ‖v‖‖n‖·(2|δp| + (6 + 6)u|p|)
+//! |δ(a·n²)| ≤ ‖v‖‖n‖·(2|δp| + (6 + 6)U|p|)
 //! ```
 //!
-//! and n² relatively by 5u.
+//! and n² relatively by 5U. The same bound with u in place of v holds for b·n².
 
 use super::interval::Interval;
 use super::interval_roots::RootIntervals;
@@ -45,8 +45,9 @@ pub struct QuickSpan {
 }
 
 impl QuickLine {
-    /// The crossing with the points c + a·u + b·v, as derived in the [module](self). `None` if it isn't certain that there
-    /// is one.
+    /// The crossing with the plane of the points c + a·u + b·v, as derived in the [module](self).
+    ///
+    /// `None` if it isn't certain that there is one.
     #[inline(always)]
     pub fn in_plane(&self, centre: Vec3, axes: [Vec3; 2]) -> Option<QuickSpan> {
         let [u, v] = axes.map(Vec3::as_dvec3);
@@ -55,7 +56,7 @@ impl QuickLine {
         let (along, across) = (n * self.dir, n * f);
         let (along_error, across_error) = (8.0 * U * length1(along), 8.0 * U * length1(across));
         let speed = along.element_sum();
-        // Comparisons with NaN are false.
+        // False for NaN.
         let crosses = speed.abs() > 2.0 * along_error;
         if !crosses {
             return None;
@@ -105,7 +106,7 @@ impl QuickSpan {
     /// The crossing if a² + b² ≤ 1; `None` if that isn't certain.
     #[inline(always)]
     pub fn in_ellipse(&self) -> Option<RootIntervals> {
-        // Squares of smaller numbers have fewer digits, or none.
+        // Squares of numbers below 10⁻¹⁵⁴ are subnormal and have fewer digits. This limit leaves a margin.
         const LEAST: f64 = 1e-140;
         let has_all_digits = self.one[0] > LEAST;
         if !has_all_digits {
@@ -114,7 +115,7 @@ impl QuickSpan {
         let squared = |[a, b]: [f64; 2]| a * a + b * b;
         let nearest = squared([self.a[0].max(0.0), self.b[0].max(0.0)]);
         let farthest = squared([self.a[1], self.b[1]]);
-        // The squares and the sum round by 3u.
+        // The squares and the sum err by 3U.
         let inner = self.one[0] * self.one[0] * (1.0 - 8.0 * U);
         let outer = self.one[1] * self.one[1] * (1.0 + 8.0 * U);
         self.decided(farthest < inner, nearest > outer)

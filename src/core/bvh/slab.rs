@@ -97,8 +97,8 @@ impl<S: Simd> SlabRay<S> {
     }
 }
 
-/// A ray prepared for testing single boxes, with the arithmetic of [`SlabRay`]: it meets the box around others if it meets
-/// one of them.
+/// A ray prepared for testing single boxes, with the arithmetic of [`SlabRay`]: a ray that meets a box also meets every
+/// larger box around it.
 pub(crate) struct BoxRay {
     origin: Vec3A,
     inverse: Vec3A,
@@ -113,7 +113,7 @@ impl BoxRay {
     pub(crate) fn new(ray: &Ray) -> Self {
         let dir = Vec3A::from(ray.dir);
         let inverse = 1.0 / dir;
-        // As `inverse_of`.
+        // The same as `inverse_of` for each axis.
         let overflows = dir.cmpne(Vec3A::ZERO) & inverse.abs().cmpgt(Vec3A::splat(MAX_INVERSE));
         let inverse = Vec3A::select(overflows, Vec3A::NAN, inverse);
         Self {

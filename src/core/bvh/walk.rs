@@ -85,7 +85,7 @@ pub(crate) trait Visitor<S: Simd> {
     /// Whether the ray's interval may begin behind its origin.
     const IS_BEHIND: bool;
 
-    /// Whether the visitor takes note of the nodes that are opened.
+    /// Whether the visitor records the opened nodes.
     const NOTES_NODES: bool;
 
     /// Processes a block and returns the farthest t of interest; a break ends the walk. Boxes at exactly that
@@ -236,7 +236,7 @@ impl Bvh {
         if !self.nodes.is_empty() {
             let mut walk = Walk::start(token, ray);
             if self.block_count() == 1 && !V::NOTES_NODES {
-                // The hits that count don't depend on the root's test.
+                // Hits don't depend on the box test of a single block, so it is skipped.
                 _ = visitor.visit(0, &walk.slabs);
                 return;
             }

@@ -52,7 +52,7 @@ pub enum StandardView {
     Top,
     /// From below.
     Bottom,
-    /// From above, the front and the right, so that the three axes have the same length in an orthographic picture.
+    /// From above, the front and the right. In an orthographic picture, the three axes have equal lengths.
     Isometric,
 }
 

@@ -181,8 +181,10 @@ impl Film {
         }
     }
 
-    /// Changes exposure and tone curve, and returns whether they differ from before. All pixels are encoded again, from
-    /// the same samples; those that don't show any yet show the background, which isn't light: it stays as it is.
+    /// Changes exposure and tone curve, and returns whether they differ from before.
+    ///
+    /// All pixels are encoded again from the same samples. Pixels that don't show any yet show the background, which
+    /// exposure and tone curve don't change.
     pub fn set_display(&mut self, display: Display) -> bool {
         if display == self.display {
             return false;
@@ -207,8 +209,8 @@ impl Film {
         true
     }
 
-    /// The colour of a pixel with other exposure and tone curve than the film's; `None` if it doesn't show samples of the
-    /// plan.
+    /// The colour of a pixel with the exposure and tone curve of `display` instead of the film's. `None` if the pixel
+    /// doesn't show samples of the plan.
     ///
     /// # Panics
     /// If the pixel lies outside of the picture.
@@ -224,7 +226,7 @@ impl Film {
         Some(self.encoded(self.shown_index(i, step.into()), display))
     }
 
-    /// The colour of a pixel's samples.
+    /// The displayed colour of the mean of a pixel's samples.
     fn encoded(&self, i: usize, display: &Display) -> [u8; 4] {
         let (sum, count) = (&self.sums[i], self.counts[i].max(1));
         let part = sum.background_part(count);
@@ -284,7 +286,7 @@ impl Film {
         (count > 1).then(|| (sum.variance(count) / f64::from(count)).sqrt())
     }
 
-    /// Whether some sample of a pixel shows a surface.
+    /// Whether any sample of a pixel shows a surface.
     ///
     /// # Panics
     /// If the pixel lies outside of the picture.

@@ -1,28 +1,28 @@
-//! The noise of a picture: how far its light is off by chance.
+//! The noise of a picture: standard errors of its pixels' luminance.
 
 use super::Film;
 use crate::plan::PixelRect;
 use crate::srgb::luminance_f64;
 use glam::{UVec2, Vec3};
 
-/// The noise of a picture: standard errors of its pixels' luminance relative to the mean luminance, so that neither
-/// exposure nor the unit of light changes it. Pixels that show no surface don't count.
+/// The noise of a picture: standard errors of its pixels' luminance relative to the mean luminance.
 ///
-/// The errors follow from the variance of each pixel's samples as if they were independent. Samples that are spread evenly
-/// have less.
+/// Neither exposure nor the unit of light changes it. Pixels that show no surface don't count. The errors are computed
+/// from the variance of each pixel's samples as if these were independent; evenly distributed samples have smaller
+/// errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Noise {
-    /// The mean of the standard errors.
+    /// The mean of the relative standard errors.
     pub mean: f64,
-    /// The largest.
+    /// The largest relative standard error.
     pub worst: f64,
-    /// The pixel that has it.
+    /// The pixel with the largest standard error.
     pub worst_at: UVec2,
     /// The mean luminance, to which the errors are relative.
     pub luminance: f64,
 }
 
-/// Sums over some pixels of a picture, from which its noise follows.
+/// Sums over pixels of a picture, from which [`Noise`] is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct NoiseSum {
     /// Number of pixels that show a surface.
@@ -58,7 +58,7 @@ impl NoiseSum {
         Some(sum)
     }
 
-    /// Adds other pixels.
+    /// Adds the sums over other pixels.
     pub fn merge(&mut self, other: &Self) {
         self.count += other.count;
         self.luminance += other.luminance;
@@ -68,7 +68,7 @@ impl NoiseSum {
         }
     }
 
-    /// The sums over the same pixels in a picture that holds this one at a place.
+    /// The same sums for a larger picture in which this one starts at the pixel `place`.
     #[must_use]
     pub fn moved_by(self, place: UVec2) -> Self {
         Self {
@@ -77,7 +77,7 @@ impl NoiseSum {
         }
     }
 
-    /// The noise of these pixels; 0 if they are black or show no surface.
+    /// The noise of these pixels; zero if they are black or show no surface.
     pub fn noise(&self) -> Noise {
         if self.luminance == 0.0 {
             return Noise::default();
@@ -98,7 +98,7 @@ mod tests {
     use crate::film::{SampleSum, Seen, TileSamples};
     use crate::plan::Plan;
 
-    /// A film of four pixels: two samples of a surface, twice; a background, and an environment.
+    /// A film of four pixels with two samples each: two pixels show surfaces, one the background, one an environment.
     fn film(scale: f32) -> Film {
         let samples = [[1.0, 3.0], [4.0, 4.0], [9.0, 9.0], [0.0, 8.0]];
         let seen = [

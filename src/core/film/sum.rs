@@ -3,7 +3,7 @@
 use crate::srgb::luminance_f64;
 use glam::{DVec3, Vec3};
 
-/// What a sample shows.
+/// The source of a sample's colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Seen {
     /// A surface.
@@ -62,7 +62,7 @@ impl SampleSum {
         true
     }
 
-    /// The same for a sample of something other than a surface, too.
+    /// Adds a sample like [`add`](Self::add), and counts samples that don't show a surface.
     pub fn add_seen(&mut self, radiance: Vec3, seen: Seen) -> bool {
         self.misses += u32::from(seen != Seen::Surface);
         self.backgrounds += u32::from(seen == Seen::Background);
@@ -79,7 +79,7 @@ impl SampleSum {
         self.backgrounds += other.backgrounds;
     }
 
-    /// Whether some of `count` samples shows a surface.
+    /// Whether any of `count` samples shows a surface.
     pub(super) fn shows_surface(&self, count: u32) -> bool {
         self.misses < count
     }
@@ -168,10 +168,13 @@ fn fixed(x: f64) -> u128 {
     shifted(digits, exponent + PLACES)
 }
 
-/// From this number on, none of the 24 digits of an f32 is dropped.
+/// The least number from which on [`fixed`] drops none of the 24 binary digits of an f32.
 const WHOLE: f32 = 1.0 / (1_u64 << (PLACES - 24)) as f32;
 
-/// The same for 0 and numbers from [`WHOLE`] to 2⁶⁴.
+/// Fixed-point digits as by [`fixed`], but only for 0 and numbers from [`WHOLE`] to 2⁶⁴.
+///
+/// An f32 is its 24 digits times 2 to the power of its biased exponent − 150: the bias is 127, and 23 digits follow the
+/// point.
 #[inline]
 fn whole(x: f32) -> u128 {
     let bits = x.to_bits();

@@ -5,8 +5,8 @@ use super::record::Recorder;
 use super::transport::ShadingPoint;
 use crate::ray::{Hit, Ray};
 
-/// Replaces a camera's ray by its part behind the emitters before the first other surface, and its hit by that of the part;
-/// does nothing unless emitters are hidden.
+/// Replaces a camera's ray by its part behind the emitters before the first other surface, and its hit by the hit of
+/// that part. Does nothing unless emitters are hidden.
 #[inline]
 pub(super) fn past_emitters(
     context: &Context,

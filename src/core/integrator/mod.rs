@@ -133,7 +133,7 @@ pub struct Sample {
     pub sampler: Sampler,
     /// The colour in linear RGB; black until [`Integrator::radiances`] sets it.
     pub radiance: Vec3,
-    /// What it shows. Without a hit that is the background, until a view with an environment sets it.
+    /// The source of its colour: without a hit the background, until a view with an environment sets it.
     pub seen: Seen,
 }
 

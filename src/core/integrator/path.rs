@@ -133,15 +133,15 @@ fn follow<R: Recorder>(
     }
 }
 
-/// The next rays of paths.
+/// The next rays of paths: shadow rays, and rays that continue paths.
 struct NextRays {
     /// The indices of the paths with a ray to a light.
     lit: Vec<usize>,
-    /// The light of each, if it arrives.
+    /// The light that each of these rays carries if nothing blocks it.
     light: Vec<Vec3>,
-    /// The rays to the lights.
+    /// The rays to lights.
     to_lights: Vec<Ray>,
-    /// The indices of the paths that go on.
+    /// The indices of the paths that continue.
     going: Vec<usize>,
     /// The rays that continue them.
     onward: Vec<Ray>,
@@ -166,7 +166,7 @@ impl NextRays {
         self.onward.clear();
     }
 
-    /// Adds a ray that continues a path; without one, numbers have overflowed.
+    /// Adds a ray that continues a path; `None` means that numbers have overflowed.
     #[inline]
     fn go_on(&mut self, onward: Option<Ray>) -> Result<(), PathEnd> {
         self.onward.push(onward.ok_or(PathEnd::Overflow)?);
@@ -203,9 +203,10 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// Adds the light that arrives along a ray from the surface that it hits, or from the environment. Adds the path's next
-    /// ray to `next`, and a ray to a light, whose light is still to be added if it arrives. Returns why the path ends, if
-    /// it does.
+    /// Adds the light that arrives along a ray from the surface that it hits, or from the environment.
+    ///
+    /// Adds the path's next ray to `next`, and a ray to a light; the caller adds that light if the ray isn't blocked.
+    /// Returns the reason if the path ends.
     #[inline(always)]
     fn advance(
         &mut self,

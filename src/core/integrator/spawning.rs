@@ -1,7 +1,7 @@
-//! The view *Spawn policies*: where the direct light of the picture differs between two policies.
+//! The view *Spawn policies*: the differences in direct light between two policies.
 //!
-//! Both pictures have the same random numbers. Direct light differs where a policy lets a surface shadow itself, or lets
-//! light through a surface that it touches.
+//! Both policies use the same random numbers. Direct light is darker where a policy lets a surface shadow itself, and
+//! brighter where it lets light through a surface.
 
 use super::palette::{FALSE_HIT, MISSED, decision, named};
 use super::path::follow_all;

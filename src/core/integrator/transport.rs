@@ -349,7 +349,8 @@ pub(super) fn balance(own: f32, other: f32) -> f32 {
 /// The part of light below which a ray isn't followed: half a step of 8 bits.
 pub(super) const INVISIBLE: f32 = 1.0 / 512.0;
 
-/// What a camera's ray with this first hit shows: the background if it hits nothing and no environment is visible.
+/// The source of the colour of a camera's ray with this first hit: the background if there is neither a hit nor a
+/// visible environment.
 pub(super) fn seen(context: &Context, hit: Option<Hit>) -> Seen {
     let lighting = &context.lighting;
     if hit.is_some() {

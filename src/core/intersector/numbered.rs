@@ -1,4 +1,4 @@
-//! A scene's group of primitives, numbered among those of the scene, and the rays of a batch that may hit it.
+//! A group of primitives with its place in the scene's numbering, and the rays of a batch that may hit it.
 
 use super::groups::GroupIntersector;
 use super::is_behind;
@@ -57,7 +57,7 @@ impl Numbered {
     /// The nearest hit up to `t_max`, in the group's numbers.
     #[inline]
     pub fn closest_hit(&self, ray: &Ray, t_max: f32) -> Option<Hit> {
-        // A copy of a ray that has just been made waits until it is in memory.
+        // Without this, copying a ray that has just been written waits for its stores.
         if t_max == ray.t_max && self.exclude(ray) == ray.exclude {
             return self.intersector.closest_hit(ray);
         }
@@ -81,6 +81,7 @@ impl Numbered {
         }
     }
 
+    /// The ranked hit in the scene's numbers.
     pub fn ranked(&self, ranked: RankedHit) -> RankedHit {
         RankedHit {
             hit: self.numbered(ranked.hit),

@@ -226,7 +226,8 @@ fn radius_for_power(scene: &Scene) -> f64 {
 }
 
 impl Light {
-    /// The same light in a scene whose coordinates are larger by an offset. Primitives that emit light move with the scene.
+    /// The same light after an offset is added to the scene's coordinates. Primitives that emit light move with the
+    /// scene.
     #[must_use]
     pub fn moved(self, offset: DVec3) -> Self {
         match self {

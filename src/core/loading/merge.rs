@@ -271,7 +271,7 @@ impl Merged {
     }
 
     /// The index at which the materials of a mesh's file begin. They and the textures are appended once, for all parts
-    /// with the mesh. A file with neither materials nor colours has the material of shapes without a `bsdf`.
+    /// with the mesh. A file with neither materials nor colours gets the material of shapes without a `bsdf`.
     fn own_materials(&mut self, mesh: &Arc<TriangleMesh>) -> u32 {
         let next = self.materials.len() as u32;
         let first = *self.of_meshes.entry(Arc::as_ptr(mesh)).or_insert(next);

@@ -90,7 +90,7 @@ impl LoadedScene {
             })
     }
 
-    /// The scene and its lights in coordinates that are larger by an offset; `None` if it can't be moved. See
+    /// The scene and its lights with an offset added to their coordinates; `None` if the scene can't be moved. See
     /// [`Scene::moved`].
     pub fn moved(&self, offset: DVec3) -> Option<Self> {
         let scene = Arc::new(self.scene.moved(offset)?);

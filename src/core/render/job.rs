@@ -149,8 +149,8 @@ impl Job {
     }
 }
 
-/// Samples traced together. More delay cancellation; with half as many, pictures of the view *Path* take 3 to 5 % longer
-/// (bunny on a plane, 2026-11).
+/// Samples traced together. A larger number delays cancellation; with half of it, pictures of the view `path` take 3 to
+/// 5 % longer (bunny on a plane, 2026-11).
 const SAMPLES_AT_ONCE: usize = 16 * PACKET;
 
 /// Samples collected to be traced together, and the sums of their tile's pixels.

@@ -1,7 +1,7 @@
-//! Pictures that are rendered in strips, one after another, so that large ones don't need more memory.
+//! Rendering in strips, one after another, which limits the memory of large pictures.
 //!
-//! A strip holds whole rows. Samples depend on the place of their pixel in the whole picture, so the strips together are the
-//! picture rendered whole, bit for bit.
+//! A strip consists of whole rows. Samples depend on the coordinates of their pixel in the whole picture, so the strips
+//! together equal the picture rendered whole, bit for bit.
 
 use super::job::{Job, RenderError, render_while};
 use crate::film::{BYTES_PER_PIXEL, Film};
@@ -47,7 +47,7 @@ impl Strips {
     }
 }
 
-/// Rows of a picture, rendered.
+/// Rendered rows of a picture.
 pub struct Strip {
     /// The rows in the picture.
     pub rows: Range<u32>,
@@ -58,8 +58,10 @@ pub struct Strip {
 }
 
 impl Strip {
-    /// Renders rows of a job's picture on `threads` threads, until `goes_on` returns false. It receives the part of the whole
-    /// picture that is traced, from 0 to 1. `progress` can cancel the tracing of alpha.
+    /// Renders rows of a job's picture on `threads` threads, until `goes_on` returns false.
+    ///
+    /// `goes_on` receives the traced part of the whole picture, from 0 to 1. `progress` can cancel the tracing of
+    /// alpha.
     ///
     /// # Errors
     /// See [`RenderError`]; of panics the first.

@@ -132,10 +132,11 @@ impl Scene {
         Some(scene.with_clip(clip.transpose().ok()?))
     }
 
-    /// The same triangles in coordinates that are larger by an offset, to which each position is rounded, so that the
-    /// rounding of hits becomes visible. Places in the file stay the same but for this rounding. Triangles whose corners
-    /// coincide then stay in the list; no ray hits them. `None` if there are other shapes, a clip or hidden triangles, or if
-    /// a position would be infinite.
+    /// The same triangles with an offset added to each position, which makes the rounding of hits visible.
+    ///
+    /// Each sum is rounded to f32; apart from that, coordinates in the file stay the same. Triangles whose corners
+    /// coincide after rounding stay in the list, but no ray hits them. `None` if there are other shapes, a clip or
+    /// hidden triangles, or if a position would be infinite.
     pub fn moved(&self, offset: DVec3) -> Option<Self> {
         let is_whole = self.clip.is_none() && self.hidden.is_none();
         if self.has_other_shapes() || !is_whole {

@@ -152,7 +152,7 @@ impl Scene {
         &self.groups
     }
 
-    /// Whether another scene, such as one with another clip, has the same groups.
+    /// Whether another scene, such as one with another clip, shares a group with this one.
     pub fn shares_groups(&self) -> bool {
         let is_shared = |group: &Arc<dyn Group>| Arc::strong_count(group) > 1;
         self.groups.iter().any(is_shared)
@@ -335,7 +335,7 @@ impl Scene {
             .get_or_init(|| VertexNormals::of(&self.mesh, self.crease))
     }
 
-    /// Whether the vertex normals are computed, so that [`vertex_normals`](Self::vertex_normals) takes no time.
+    /// Whether the vertex normals have been computed, so that [`vertex_normals`](Self::vertex_normals) returns at once.
     pub fn has_vertex_normals(&self) -> bool {
         self.vertex_normals.get().is_some()
     }

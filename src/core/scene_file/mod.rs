@@ -121,8 +121,8 @@
 //! | `bumpmap` | a nested texture of heights in the scene's unit, `scale` = 1, and a nested `bsdf` |
 //! | `twosided` | one nested `bsdf` for both sides, or two for front and back; light mustn't pass through them |
 //!
-//! A shape without a `bsdf` is `diffuse` with a reflectance of 0.5, as in Mitsuba, so that its back is black. An `obj`
-//! whose file has materials or vertex colours keeps these, which Mitsuba ignores.
+//! A shape without a `bsdf` is `diffuse` with a reflectance of 0.5, as in Mitsuba; its back is black. An `obj` whose
+//! file has materials or vertex colours keeps them; Mitsuba ignores them.
 //!
 //! Metals are Ag, Al, Au, Be, Cr, Cu, Hg, Ir, Rh, TiN and W. Different `alpha_u` and `alpha_v` give a warning. Mitsuba's
 //! other BSDFs give a warning and a diffuse reflectance of 0.5.

@@ -29,7 +29,7 @@ impl FlatPatch {
         Self::with_normal(span, u.cross(v), outline)
     }
 
-    /// The same, given the cross product of the half axes.
+    /// The patch, given the cross product of the half axes.
     #[inline]
     pub(super) fn with_normal(span: &Span, across: DVec3, outline: Outline) -> Self {
         let Span { centre, u, v } = *span;

@@ -18,7 +18,7 @@ pub struct SurfacePoint {
 }
 
 impl SurfacePoint {
-    /// Whether a direction leads to the side that the normal points away from.
+    /// Whether a direction points to the side of the surface opposite to the normal.
     #[inline]
     pub fn is_behind(&self, dir: Vec3) -> bool {
         self.normal.dot(dir.as_dvec3()) < 0.0

@@ -84,7 +84,7 @@ impl MemoryArg {
         self.max_memory << 20
     }
 
-    /// The bytes that are left beside a scene whose packed primitives take `packed_bytes`.
+    /// The bytes that remain of the limit beside a scene whose packed primitives take `packed_bytes`.
     pub(super) fn left(self, scene: &Scene, packed_bytes: usize) -> u64 {
         self.bytes().saturating_sub(held_bytes(scene, packed_bytes))
     }

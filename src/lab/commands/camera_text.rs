@@ -49,7 +49,7 @@ impl CameraArgs {
     /// Reads arguments, such as `--eye 1,2,3 --fov 40`, or those of a whole command of hitscope.
     ///
     /// # Errors
-    /// What is wrong with the text, in a short line.
+    /// The reason, in a short line.
     pub fn from_text(text: &str) -> Result<Self, String> {
         let words: Vec<&str> = text.split_whitespace().collect();
         let parsed = CameraText::try_parse_from(of_camera(&words));

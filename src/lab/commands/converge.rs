@@ -256,7 +256,7 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Why a setting can't begin with a name.
+/// The message about a setting whose name isn't that of a view of light.
 fn not_a_view_of_light(name: &str) -> String {
     let with_light = INTEGRATORS
         .iter()

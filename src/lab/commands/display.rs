@@ -31,7 +31,7 @@ impl DisplayArgs {
         refuse_without_effect(views, &given)
     }
 
-    /// Exposure and tone curve of a view, which are none unless its colours are light.
+    /// Exposure and tone curve of a view; the default ones unless its colours are light.
     pub fn display(&self, view: &Integrator) -> Display {
         if !view.needs.uses(Setting::Exposure) {
             return Display::default();

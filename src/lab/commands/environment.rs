@@ -1,4 +1,4 @@
-//! The environment's options: where light from all directions comes from, and how its picture stands.
+//! Values of the environment's options: its source, and the orientation of its picture.
 
 use super::CommandError;
 use super::stderr::print_line;
@@ -14,7 +14,7 @@ use hitscope_core::progress::Progress;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Where light from all directions comes from.
+/// The source of light from all directions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EnvironmentSource {
     /// The lamps of the view *Shaded*.
@@ -54,7 +54,7 @@ pub(super) fn turn(lights: &mut [Light], degrees: f32) -> bool {
     true
 }
 
-/// `studio`, `built-in`, `constant:0.5`, `constant:1,0.9,0.8`, or a path.
+/// Parses `studio`, `built-in`, `constant:0.5`, `constant:1,0.9,0.8`, or a path.
 pub(super) fn parse_environment(text: &str) -> Result<EnvironmentSource, String> {
     match text {
         "" => return Err("expected a file, constant:R,G,B, studio or built-in".to_owned()),
@@ -89,7 +89,7 @@ pub(super) fn parse_environment(text: &str) -> Result<EnvironmentSource, String>
     Ok(EnvironmentSource::Constant(radiance.as_vec3()))
 }
 
-/// `z`.
+/// Parses an axis, such as `z`.
 pub(super) fn parse_up_axis(text: &str) -> Result<UpAxis, String> {
     match text {
         "y" => Ok(UpAxis::Y),
@@ -98,7 +98,7 @@ pub(super) fn parse_up_axis(text: &str) -> Result<UpAxis, String> {
     }
 }
 
-/// `-90`.
+/// Parses an angle in degrees, such as `-90`.
 pub(super) fn parse_rotation(text: &str) -> Result<f32, String> {
     match text.parse() {
         Ok(degrees) if (-360.0..=360.0).contains(&degrees) => Ok(degrees),

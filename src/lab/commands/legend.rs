@@ -29,7 +29,7 @@ pub(super) struct Legend<'a> {
     bar: u32,
     /// Width of the picture in its own pixels.
     picture_width: u32,
-    /// Pixels of the picture per pixel of the font: text of a height that can be read.
+    /// Pixels of the picture per pixel of the font: one per 360 rows, so that text is legible.
     zoom: u32,
 }
 
@@ -58,7 +58,7 @@ impl<'a> Legend<'a> {
         self.picture_width + self.zoom * self.width
     }
 
-    /// Rows of the picture with the legend to their right, beginning with this row.
+    /// Rows of the picture, beginning with `first_row`, with the legend to their right.
     pub(super) fn beside(&self, pixels: &[[u8; 4]], first_row: u32) -> Vec<[u8; 4]> {
         let rows = pixels.chunks(self.picture_width as usize);
         let mut all = Vec::with_capacity(rows.len() * self.width_together() as usize);

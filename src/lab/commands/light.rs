@@ -112,8 +112,8 @@ impl LightArgs {
         Ok(())
     }
 
-    /// What light transport depends on in a picture of a scene in which an axis points up. A picture of an environment may
-    /// take `max_memory` bytes.
+    /// The settings of light transport for a picture of a scene in which `up_axis` points up. A picture of an
+    /// environment may take `max_memory` bytes.
     ///
     /// # Errors
     /// See [`load`](Self::load).
@@ -126,7 +126,7 @@ impl LightArgs {
         Ok(self.load(loaded, up_axis, max_memory)?.seen_by(camera))
     }
 
-    /// The light of a scene in whose pictures an axis points up, for any camera. A picture of an environment may take
+    /// The light of a scene in whose pictures `up_axis` points up, for any camera. A picture of an environment may take
     /// `max_memory` bytes.
     ///
     /// # Errors

@@ -21,9 +21,9 @@ pub struct MaterialInfo {
     pub back: Option<&'static str>,
     /// About the part of light from everywhere that the front reflects or lets pass, without textures.
     pub colour: [f32; 3],
-    /// What a material library says of it, by keyword: colours, or single numbers.
+    /// The properties that a material library gives, by keyword: colours and numbers.
     pub properties: Vec<PropertyInfo>,
-    /// Whether the front's model is the back's, too, although light doesn't pass through.
+    /// Whether the material is opaque and its back has the front's model.
     pub is_two_sided: bool,
     /// The emitted light, without textures.
     pub emission: [f32; 3],
@@ -227,7 +227,7 @@ impl fmt::Display for MaterialInfo {
         }
         match self.back {
             Some(back) => write!(f, ", back {back}")?,
-            // Materials of libraries are, unless a scene file says otherwise.
+            // Materials of libraries are two-sided unless a scene file says otherwise, so the text doesn't mention it.
             None if self.is_two_sided && self.properties.is_empty() => write!(f, ", both sides")?,
             None => {}
         }

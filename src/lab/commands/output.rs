@@ -106,7 +106,7 @@ impl Output {
         self.write_png_rows(size, |rows| rows.write(pixels))
     }
 
-    /// Writes a PNG file. `content` receives what writes its rows, from the top.
+    /// Writes a PNG file. `content` receives the writer of its rows, and writes them from top to bottom.
     ///
     /// # Errors
     /// See [`write`](Self::write); also those of `content`. In either case an older file is unchanged.

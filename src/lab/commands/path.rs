@@ -49,7 +49,8 @@ impl PathArgs {
         }
     }
 
-    /// The path of a sample of a pixel in a picture in which an axis points up, with the random numbers that `render` has there.
+    /// The path of a sample of a pixel, with the same random numbers as in `render`. `up_axis` points up in the
+    /// picture.
     ///
     /// # Errors
     /// See [`CommandError`].

@@ -68,9 +68,9 @@ pub struct PictureArgs {
 pub struct Rendered {
     /// The view.
     pub view: &'static Integrator,
-    /// The rows of the picture.
+    /// The range of the rows in the whole picture.
     pub rows: Range<u32>,
-    /// These rows.
+    /// The film of these rows.
     pub film: Film,
     /// The scale of its colours, if it shows numbers.
     pub scale: Option<ColourScale>,
@@ -97,12 +97,12 @@ impl Rendered {
         }
     }
 
-    /// The noise; none with one sample per pixel, where it isn't known.
+    /// The noise of these rows; zero with one sample per pixel, where it isn't known.
     pub fn noise(&self) -> Noise {
         self.noise_sum().noise()
     }
 
-    /// The sums from which the noise of the picture follows, of these rows.
+    /// The sums over these rows from which the noise of the whole picture is computed.
     pub(super) fn noise_sum(&self) -> NoiseSum {
         let rows = PixelRect {
             min: UVec2::ZERO,
@@ -152,7 +152,7 @@ impl PictureArgs {
         }
     }
 
-    /// The same, whatever the size of the picture.
+    /// Checks all options but the size of the picture.
     ///
     /// # Errors
     /// [`CommandError::Usage`].

@@ -53,7 +53,7 @@ pub fn scene_lines(rows: &[SceneRow]) -> Vec<SceneLine<'_>> {
     tiers.chain(others).map(line).collect()
 }
 
-/// The kernels as the page draws them.
+/// The kernels in the form that the page draws.
 fn entries(rows: &[SceneRow]) -> Vec<Value> {
     let entry = |line: SceneLine<'_>| {
         let SceneLine {

@@ -10,9 +10,10 @@ use glam::DVec3;
 use std::cmp::Ordering;
 use std::fmt::Debug;
 
-/// A plane's centre and half axes of lengths from 10⁻²⁴ to 10²⁴, which may be almost parallel, and a line that passes the
-/// border of the rectangle or the ellipse at a distance of 1 to 10⁻¹⁵ half axes on either side. It may be almost parallel
-/// to the plane.
+/// A centre and half axes, and a line that crosses their plane near the border of the rectangle or the ellipse.
+///
+/// The lengths of the half axes are from 10⁻²⁴ to 10²⁴, and the half axes may be almost parallel. The crossing is 1 to
+/// 10⁻¹⁵ half axes inside or outside of the border. The line may be almost parallel to the plane.
 fn near_border(random: &mut Random, is_ellipse: bool) -> Option<(Span, Ray)> {
     let scale = 10f64.powi(random.index(49) as i32 - 24);
     let small = |random: &mut Random| 10f64.powi(-(random.index(8) as i32));

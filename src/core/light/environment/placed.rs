@@ -18,8 +18,8 @@ pub struct MapPlacement {
 }
 
 impl MapPlacement {
-    /// A placement with an axis of the world up, the x axis of the map along that of the world, and the radiance of the
-    /// file.
+    /// The placement in which the map's vertical axis is the world's `up_axis`, the x axes of map and world agree, and
+    /// the radiance is that of the file.
     pub fn upright(up_axis: UpAxis) -> Self {
         Self {
             orientation: match up_axis {

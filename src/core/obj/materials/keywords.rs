@@ -57,7 +57,7 @@ pub(super) const KEYWORDS: [&str; 45] = [
 pub(super) const VALUES: [&str; 10] =
     ["kd", "ks", "ke", "tf", "ns", "d", "tr", "illum", "pr", "pm"];
 
-/// What a value must be, for a keyword of [`VALUES`].
+/// The form that a value must have, as part of a warning, for a keyword of [`VALUES`].
 pub(super) fn expected_value(keyword: &str) -> &'static str {
     match keyword.to_ascii_lowercase().as_str() {
         "kd" | "ks" | "ke" | "tf" => "a colour is one or three numbers that aren't negative",

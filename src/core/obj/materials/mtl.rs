@@ -114,7 +114,7 @@ struct Parser {
     material_count: usize,
     /// Skipped statements by keyword.
     skipped: BTreeMap<String, Tally>,
-    /// Skipped statements of properties whose values are invalid, by keyword.
+    /// Skipped statements with an invalid value, by keyword.
     invalid: BTreeMap<String, Tally>,
     /// Statements with a clamped value, by keyword.
     clamped: BTreeMap<String, Tally>,

@@ -142,7 +142,7 @@ const CAMERA_OPTIONS: [&str; 8] = [
     "turntable",
 ];
 
-/// Draws overlays over the pixels of a picture or a strip, which are sRGB with alpha. Strips come from the top.
+/// Draws overlays over the pixels of a picture or a strip, which are sRGB with alpha. Strips arrive from top to bottom.
 pub type OverlayPen<'a> =
     Box<dyn FnMut(&mut [[u8; 4]], &Rendered) -> Result<(), CommandError> + 'a>;
 

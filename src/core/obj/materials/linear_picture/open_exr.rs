@@ -16,13 +16,14 @@ pub(super) const START: &[u8] = &[0x76, 0x2f, 0x31, 0x01];
 
 /// The channels of a picture.
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
-/// The channel of a grey picture: its luminance.
+/// The luminance channel of a grey picture.
 const GREY: &str = "Y";
-/// A channel of pictures that store colours relative to their luminance.
+/// A chroma channel, which luminance–chroma pictures have beside `Y`.
 const CHROMA: &str = "RY";
 
-/// Decodes the first layer with the channels R, G and B, or else the first grey one with the channel Y. An alpha channel is
-/// ignored: colours are stored multiplied by it.
+/// Decodes the first layer with the channels R, G and B, or else the first grey layer.
+///
+/// An alpha channel is ignored: colours are stored multiplied by it.
 pub(super) fn decode(
     bytes: &[u8],
     memory: Memory,
