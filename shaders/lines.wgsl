@@ -9,9 +9,9 @@ struct Style {
     stretch: f32,
 };
 
-// `Fade` in src/viewer/gpu/lines.rs. 1: lines fade where they or the gap between them would be less than a few pixels
-// long. 2: the gap alone counts, as lines are pieces of curves. 3: the same, whatever the gap's direction. 0: they don't
-// fade.
+// `Fade` in src/viewer/gpu/lines.rs. 0: lines don't fade. 1: lines fade where they or the gap between them would be
+// shorter than a few pixels. 2: only the gap counts, because the lines are pieces of curves. 3: as 2, whatever the
+// direction of the gap.
 override FADE: u32;
 // Whether the clip cuts lines.
 override IS_CUT: bool;

@@ -14,8 +14,8 @@ struct View {
     planes: array<vec4f, PLANE_COUNT>,
 };
 
-// Not a uniform: a driver may compile a shader again for each value of a uniform that a branch or a loop depends on.
-// Mesa's lavapipe 22.3 does that for each drawing, and keeps every result.
+// Not a uniform, because a driver may recompile a shader for each value of a uniform that a branch or a loop depends
+// on. Mesa's lavapipe 22.3 does that for each drawing, and keeps every result.
 const PLANE_COUNT = 16u;
 
 @group(0) @binding(0) var<uniform> view: View;

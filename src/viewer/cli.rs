@@ -178,12 +178,12 @@ impl Cli {
 /// The view of the built-in scene.
 const BUILT_IN_VIEW: &str = "path";
 
-/// Opens the window, or renders a picture if there is no display. The program began at this time.
+/// Opens the window, or renders a picture if there is no display. `began` is the start time of the program.
 fn open_window(cli: &Cli, began: Instant) -> Result<(), CommandError> {
     // Open the output before the window, so that an unwritable path fails at once.
     let output = cli.screenshot.as_deref().map(Output::create).transpose()?;
     if let (Some(_), Some(file)) = (&cli.screenshot, &cli.file) {
-        // So does a missing file, which the window would show.
+        // A missing file fails at once, too; otherwise the window would show the error.
         std::fs::metadata(file).map_err(|source| CommandError::File {
             path: file.clone(),
             source,

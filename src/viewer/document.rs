@@ -53,7 +53,7 @@ pub struct Document {
     pub began: SystemTime,
     /// The offset that was asked for; see [`move_by`](Self::move_by).
     pub offset: f64,
-    /// Whether the scene couldn't be moved by it.
+    /// Whether the scene can't be moved by the offset.
     pub ignores_offset: bool,
     /// The part of the scene that is shown, in the file's coordinates.
     clip: Option<Clip>,
@@ -69,7 +69,7 @@ pub struct Document {
     progress: Progress,
     /// The work on the best tree.
     improvement: Pending<Result<(), Cancelled>>,
-    /// What was replaced.
+    /// Replaced data, which a background task frees.
     retired: Retired,
 }
 
@@ -152,7 +152,7 @@ impl Document {
     }
 
     /// Adds an offset along each axis to the coordinates in which the scene is stored, so that their rounding becomes
-    /// visible. A scene that can't be moved stays; see [`LoadedScene::moved`].
+    /// visible. A scene that can't be moved stays as it is; see [`LoadedScene::moved`].
     pub fn move_by(&mut self, offset: f64) {
         self.offset = offset;
         if offset == 0.0 {
@@ -221,7 +221,7 @@ impl Document {
         is_new
     }
 
-    /// Frees what was replaced, in the background.
+    /// Frees replaced data in the background.
     pub fn poll_retired(&mut self, ctx: &egui::Context) {
         self.retired.poll(ctx);
     }

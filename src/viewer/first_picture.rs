@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-/// The time to the first picture, once it is known.
+/// The start time of the program, and the time to its first traced picture once that is known.
 pub struct FirstPicture {
     began: Instant,
     /// Whether a frame has drawn the picture.
@@ -11,7 +11,7 @@ pub struct FirstPicture {
 }
 
 impl FirstPicture {
-    /// Nothing is shown yet by a program that began at this time.
+    /// The state of a program that began at this time and hasn't shown a picture.
     pub fn new(began: Instant) -> Self {
         Self {
             began,
@@ -20,7 +20,7 @@ impl FirstPicture {
         }
     }
 
-    /// The frame draws a traced picture. The next frame, which is asked for, knows that it is on the screen.
+    /// Notes that this frame draws a traced picture, and requests the next frame, when the picture is on the screen.
     pub fn draw(&mut self, ctx: &egui::Context) {
         if !self.is_drawn {
             self.is_drawn = true;
@@ -28,7 +28,7 @@ impl FirstPicture {
         }
     }
 
-    /// A frame begins: what the one before it has drawn is on the screen.
+    /// Notes that a frame begins. The previous frame is on the screen by then.
     pub fn begin_frame(&mut self) {
         if self.is_drawn && self.after.is_none() {
             self.after = Some(self.began.elapsed());
@@ -41,7 +41,7 @@ impl FirstPicture {
     }
 }
 
-/// The time for people, such as `first picture after 0.44 s`.
+/// The time as text, such as `first picture after 0.44 s`.
 pub fn shown_time(after: Duration) -> String {
     format!("first picture after {:.2} s", after.as_secs_f64())
 }

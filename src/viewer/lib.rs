@@ -30,6 +30,7 @@
 //! | [`storage`], [`window`] | storage of settings and preferences; the window's size and end |
 //! | [`about_sheet`] | the version, the graphics adapter and the machine, for the window |
 //! | [`render`], [`offscreen`], [`screenshot`] | the command `render`; the overlay without a window; `--screenshot` |
+//! | [`first_picture`] | the time to the first traced picture |
 
 pub mod about;
 pub mod about_sheet;

@@ -54,7 +54,7 @@ pub fn links(text: &str, is_file: impl Fn(&Path) -> bool) -> Vec<Link> {
         return Vec::from_iter(is_file(Path::new(path)).then_some(Link { range, target }));
     }
     let mut links = Vec::from_iter(file_at_start(text, is_file));
-    // The lines of a session, a text file, aren't those of the mesh.
+    // Line numbers in messages about a session refer to the session, not to the mesh.
     if links.iter().any(Link::is_of_session) {
         return links;
     }

@@ -88,8 +88,8 @@ impl Development {
         }
     }
 
-    /// Updates the pixels of a film that changed; all of them if the look or the size changed. Returns all pixels, row by
-    /// row from the top, and the rectangle to upload; `None` if nothing changed, also for a film of another size.
+    /// Updates the pixels of a film that changed; all of them if the look or the size changed. Returns all pixels, row
+    /// by row from the top, and the rectangle to upload; `None` if nothing changed, also for a film of another size.
     pub fn update<'a>(
         &'a mut self,
         film: &'a Film,
@@ -130,8 +130,7 @@ impl Development {
     }
 }
 
-/// The colour of a pixel. A pixel without samples of the picture has that of the film; one without noise that of the
-/// picture.
+/// The colour of a pixel. A pixel without samples, or without a known error, has its colour in the film.
 fn shown(film: &Film, pixel: UVec2, look: Look) -> [u8; 4] {
     let in_film = film.pixels()[(pixel.y * film.size().x + pixel.x) as usize];
     match look {

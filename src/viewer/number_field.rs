@@ -1,4 +1,4 @@
-//! Fields and sliders for numbers. A text that isn't a finite number leaves the old number.
+//! Fields and sliders for numbers. If a text isn't a finite number, the number doesn't change.
 
 use egui::emath::Numeric;
 use egui::{DragValue, Slider};
@@ -16,7 +16,7 @@ pub fn number_slider<N: Numeric>(value: &mut N, range: RangeInclusive<N>) -> Sli
     Slider::new(value, range).custom_parser(finite::<N>)
 }
 
-/// The number that a text holds, if it is finite as an `N`. Spaces don't count, and a minus sign may be U+2212.
+/// The number that a text holds, if it is finite as an `N`. Spaces are ignored, and a minus sign may be U+2212.
 pub fn finite<N: Numeric>(text: &str) -> Option<f64> {
     let plain = text.chars().filter(|c| !c.is_whitespace());
     let plain: String = plain.map(|c| if c == '−' { '-' } else { c }).collect();

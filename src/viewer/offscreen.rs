@@ -25,7 +25,7 @@ pub fn with_overlays(command: clap::Command) -> clap::Command {
     })
 }
 
-/// What draws the overlays that the arguments ask for over a rendered picture or its strips.
+/// Prepares the overlays that the arguments ask for, to be drawn over a rendered picture or its strips.
 ///
 /// # Errors
 /// See [`GpuError`].

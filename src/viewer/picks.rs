@@ -1,4 +1,4 @@
-//! The list of picked pixels, and what their rays hit.
+//! The list of picked pixels, and the hits of their rays.
 
 use crate::comparison::Side;
 use glam::{DVec3, UVec2};
@@ -190,7 +190,8 @@ pub fn to_json(file: &str, picks: &[(&PickedPixel, Option<&PickedPoint>)]) -> St
 const COLUMNS: &str = "file,number,name,side,pixel_x,pixel_y,kernel,shape,primitive,face,line,t,l1,l2,l3,\
     hit_x,hit_y,hit_z,snapped_to,x,y,z,ng_x,ng_y,ng_z,ns_x,ns_y,ns_z";
 
-/// Picks of a file with their hits as a table: comma-separated values with a row of names. The cells of a miss are empty.
+/// Picks of a file with their hits as a table: comma-separated values with a row of names. The cells of a miss are
+/// empty.
 pub fn to_csv(file: &str, picks: &[(&PickedPixel, Option<&PickedPoint>)]) -> String {
     let mut text = format!("{COLUMNS}\n");
     let file = quoted(file);

@@ -1,4 +1,4 @@
-//! Large data that was replaced. Freeing hundreds of megabytes takes longer than a frame, so background tasks do it.
+//! Replaced data that is large. Freeing hundreds of megabytes takes longer than a frame, so background tasks do it.
 
 use crate::task::Task;
 use std::sync::Arc;
@@ -16,8 +16,7 @@ impl<T: ?Sized + Send + Sync> Shared for Arc<T> {
     }
 }
 
-/// Data that was replaced, until nothing else uses it. The window's other parts, which give it up earlier, thereby free
-/// nothing.
+/// Replaced data, kept until nothing else uses it, so that the window's other parts don't free it when they drop it.
 #[derive(Default)]
 pub struct Retired {
     waiting: Vec<(Box<dyn Shared>, Instant)>,
@@ -34,7 +33,7 @@ impl Retired {
     pub fn poll(&mut self, ctx: &egui::Context) {
         /// Time between two checks while the window is idle.
         const PAUSE: Duration = Duration::from_millis(100);
-        /// What is used for longer isn't kept for its user.
+        /// Data that is in use for longer is dropped here, and its last user frees it.
         const PATIENCE: Duration = Duration::from_secs(2);
         self.freeing.retain(|task| matches!(task.poll(), Ok(None)));
         let unused = self.waiting.extract_if(.., |(data, since)| {
@@ -50,7 +49,7 @@ impl Retired {
         }
     }
 
-    /// Whether data is waiting or being freed.
+    /// Whether no data is waiting or being freed.
     pub fn is_empty(&self) -> bool {
         self.waiting.is_empty() && self.freeing.is_empty()
     }

@@ -17,7 +17,7 @@ pub enum Due {
     FirstPicture,
 }
 
-/// What a screenshot tells besides its file.
+/// The result of a screenshot besides its file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Taken {
     /// The time from the start of the program to the first traced picture; `None` if none was shown yet.

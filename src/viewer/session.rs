@@ -1,8 +1,8 @@
-//! A session as plain data: the open file and how it is shown. Its [`Sight`] is also an undo step, and `--session` takes
-//! its camera on the command line.
+//! A session as plain data: the open file and how it is shown. Its [`Sight`] is also an undo step, and `--session`
+//! takes its camera on the command line.
 //!
-//! Session files are JSON. Unknown fields are ignored; settings that are missing or that no control can set have their
-//! defaults, and those that have them aren't written.
+//! Session files are JSON. Unknown fields are ignored. Settings that are missing, or that no control can set, have
+//! their defaults. Settings that have their defaults aren't written.
 
 mod compact;
 mod picked_pixel;

@@ -71,8 +71,8 @@ pub struct Settings {
     pub spawn: String,
     /// Name of the rule that the view *Spawn policies* compares with.
     pub second_spawn: String,
-    /// Added to the coordinates in which the scene is stored while the view compares spawn policies. Not kept, as it belongs
-    /// to a scene.
+    /// Offset of the coordinates in which the scene is stored, while the view compares spawn policies. Not kept between
+    /// runs, because it belongs to a scene.
     #[serde(skip)]
     pub spawn_offset: f64,
     /// The distance to which surfaces occlude in the view *Ambient occlusion*, in radii of the scene.
@@ -85,7 +85,7 @@ pub struct Settings {
     pub terminator: String,
     /// Where light from far away comes from.
     pub environment: EnvironmentSource,
-    /// Whether the open file has an environment of its own, which is used instead.
+    /// Whether the open file has an environment of its own, which is used instead of the chosen one.
     #[serde(skip)]
     pub has_file_environment: bool,
     /// The picture of [`EnvironmentSource::File`].
@@ -100,8 +100,8 @@ pub struct Settings {
     pub exposure_stops: f32,
     /// Name of the tone curve of views with light.
     pub tone_curve: String,
-    /// Whether the noise of views that need lights is shown instead of their picture. Not kept, so that no window opens with
-    /// a picture of noise.
+    /// Whether the noise of views that need lights is shown instead of their picture. Not kept, so that no window opens
+    /// with a picture of noise.
     #[serde(skip)]
     pub shows_noise: bool,
     /// Name of the view that the open file asks for, which is used instead.
@@ -192,8 +192,8 @@ impl Settings {
         self.kernel = kernel.to_owned();
     }
 
-    /// The kernel that the view *Disagreement* compares the selected kernel with. Never the selected kernel, which would
-    /// always agree.
+    /// The kernel that the view *Disagreement* compares the selected kernel with. Never the selected kernel, which
+    /// would always agree.
     pub fn against(&self) -> KernelChoice {
         let chosen = kernel_named(&self.against).unwrap_or_else(|| exact_triangle_kernel().into());
         if chosen == self.kernel() {
@@ -254,7 +254,7 @@ impl Settings {
         spawn_policy(&self.second_spawn).unwrap_or(&SPAWN_POLICIES[0])
     }
 
-    /// What is added to the coordinates in which the scene is stored.
+    /// The offset of the coordinates in which the scene is stored.
     pub fn offset(&self) -> f64 {
         if self.view().needs.uses(Setting::SecondSpawn) {
             self.spawn_offset
@@ -299,7 +299,7 @@ impl Settings {
         self.environment = source;
     }
 
-    /// Uses the picture of an environment in a file, unrotated if it is another one than before, and keeps it between runs.
+    /// Uses the environment picture in a file, and keeps it between runs. A new file resets the rotation.
     pub fn keep_environment_file(&mut self, path: &Path) {
         if self.environment_file.as_deref() != Some(path) {
             self.environment_degrees = 0.0;

@@ -164,9 +164,9 @@ impl<K: PartialEq, T: Send + 'static> KeyedTask<K, T> {
         self.0.is_some()
     }
 
-    /// The result of the running task, once it is ready, with its key. Starts the task for `key` if none is running. Unlike
-    /// for [`get`](Self::get), a running task for another key goes on, so that there are results while a slider changes
-    /// the key in each frame.
+    /// The result of the running task, once it is ready, with its key. Starts the task for `key` if none is running.
+    /// Unlike [`get`](Self::get), this doesn't drop a running task for another key, so that there are results while a
+    /// slider changes the key in each frame.
     ///
     /// # Errors
     /// [`TaskPanicked`] if the thread panicked; the next call starts again.

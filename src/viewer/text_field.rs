@@ -2,7 +2,7 @@
 
 use egui::TextEdit;
 
-/// The most characters: longer than all paths that Linux opens.
+/// The maximum length in characters: Linux's `PATH_MAX`, the limit on paths that it opens.
 const MOST: usize = 4096;
 
 /// A field for a line of text.

@@ -1,8 +1,8 @@
 //! Tracing of the window's picture: posts jobs to the threads and collects their tiles.
 //!
-//! While the camera moves, each new request waits for the first pass of the previous request, which is coarse
-//! enough to be fast. A view that needs lights is slower: while the camera moves, its preview is traced instead, which is
-//! the first view of the table. The view follows once nothing has changed for a while, and replaces the preview when its
+//! While the camera moves, each new request waits for the first pass of the previous request, which is coarse enough to
+//! be fast. A view that needs lights is slower: while the camera moves, its preview is traced instead, which is the
+//! first view of the table. The view follows once nothing has changed for a while, and replaces the preview when its
 //! own first pass is done.
 
 mod limits;
@@ -165,7 +165,7 @@ impl Tracer {
         self.post();
     }
 
-    /// Keeps the luminance that noise is shown relative to, once a pass.
+    /// Updates the luminance to which noise is relative, once per pass.
     fn note_luminance(&mut self) {
         let passes = self.film.passes_done();
         if self.luminance.0 != passes {
@@ -174,8 +174,8 @@ impl Tracer {
         }
     }
 
-    /// The mean luminance at the end of the last pass, to which the noise of pixels is shown relative; `None` while noise
-    /// isn't known or all is black.
+    /// The mean luminance at the end of the last pass, to which the noise of pixels is shown relative; `None` while
+    /// noise isn't known or all is black.
     pub fn luminance(&self) -> Option<f64> {
         self.luminance.1.filter(|&luminance| luminance > 0.0)
     }

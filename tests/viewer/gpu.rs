@@ -235,8 +235,8 @@ fn an_overlay_in_tiles_is_the_same_picture() {
         assert!(in_strips == tiled);
         let whole = pixels(&shared.device, &shared.queue);
         assert!(whole.iter().any(|pixel| *pixel != whole[0]));
-        // The corners of lines are rounded by another matrix: by some 1e-4 pixels, a part of a step of colour. Where a line
-        // touches a surface, it may be hidden in one picture.
+        // The corners of lines are rounded by another matrix: by some 1e-4 pixels, a part of a step of colour. Where a
+        // line touches a surface, it may be hidden in one picture.
         let differs = |(a, b): (&[u8; 4], &[u8; 4])| (0..4).any(|k| a[k].abs_diff(b[k]) > 2);
         let pairs = tiled.iter().zip(&whole);
         let count = pairs.filter(|pair| differs(*pair)).count();

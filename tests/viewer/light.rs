@@ -236,7 +236,7 @@ fn a_kept_environment_that_cannot_be_read_gives_way_to_that_of_the_scene() {
     assert_eq!(settings.environment_file, None);
 }
 
-/// A sphere under a constant environment, or without lights.
+/// A scene file with a sphere and these lights.
 fn sphere(folder: &tempfile::TempDir, name: &str, lights: &str) -> PathBuf {
     let text = format!("<scene version='3.0.0'><shape type='sphere'/>{lights}</scene>");
     write(folder, name, &text)

@@ -84,7 +84,7 @@ fn the_largest_picture_needs_little_memory_which_cancel_frees() {
         for label in ["Width", "Height"] {
             enter(&mut window, label, 16384);
         }
-        // Whole pictures exceed the limit.
+        // A picture that is rendered whole exceeds the limit.
         click(&mut window, "EXR");
         click(&mut window, "Render");
         let notice = window.state().notice().expect("refused").to_owned();

@@ -37,7 +37,8 @@ impl Canvas {
         }
     }
 
-    /// The place of a picture of another size: centred, as large as possible. Pixels are enlarged by whole factors only.
+    /// The place of a picture of another size: centred, as large as possible. Pixels are enlarged by whole factors
+    /// only.
     pub(super) fn of_picture(available: Rect, pixels_per_point: f32, size: UVec2) -> Self {
         let whole = Self::new(available, pixels_per_point);
         let factors = whole.resolution.as_vec2() / size.as_vec2();

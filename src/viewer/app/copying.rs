@@ -1,11 +1,13 @@
-//! Copying of the inspection as text. A background task writes the text: in a bad mesh, a ray crosses a million triangles.
+//! Copies the inspection as text. A background task writes the text, because a ray may cross a million triangles of a
+//! bad mesh.
 
 use super::App;
 use crate::task::Task;
 use std::sync::Arc;
 
 impl App {
-    /// Copies the inspection as JSON, with the path of the selected sample if the view follows paths, once it is written.
+    /// Writes the inspection as JSON in the background, to be copied then. It contains the path of the selected sample
+    /// if the view follows paths.
     pub(crate) fn copy_pick(&mut self, ctx: &egui::Context) {
         let Some(pick) = &self.picked.pick else {
             return;
@@ -19,7 +21,7 @@ impl App {
         self.picked.copying = Some(Task::spawn("copy", ctx, write));
     }
 
-    /// Copies the text that was written.
+    /// Copies the text once it is written.
     pub(super) fn poll_copying(&mut self, ctx: &egui::Context) {
         let text = match self.picked.copying.as_ref().map(Task::poll) {
             None | Some(Ok(None)) => return,

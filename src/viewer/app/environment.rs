@@ -12,7 +12,7 @@ use hitscope_core::srgb::from_texel;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Pictures of environments in files.
+/// The environment pictures in files: the one that is loaded, and the one that is being loaded.
 #[derive(Default)]
 pub(crate) struct EnvironmentFiles {
     /// The picture that was loaded last.
@@ -36,7 +36,7 @@ impl EnvironmentFiles {
     }
 }
 
-/// Whether a file's name is that of a picture of an environment.
+/// Whether a path has the extension of an environment picture.
 pub(super) fn is_environment(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
     ["hdr", "exr"]
@@ -45,7 +45,7 @@ pub(super) fn is_environment(path: &Path) -> bool {
 }
 
 impl App {
-    /// The environment that replaces that of the scene's file; `None` also while it is being loaded.
+    /// The environment that replaces that of the scene's file; `None` if none does, and while it is being loaded.
     pub(super) fn environment(&self) -> Option<Environment> {
         let settings = &self.seen.settings;
         let brightness = settings.environment_brightness;
@@ -69,8 +69,8 @@ impl App {
         Some(Environment::Map(PlacedMap::new(map, placement)))
     }
 
-    /// Lights the scene by a picture of an environment, once it is loaded. Until then, and if it can't be loaded, the light
-    /// stays as it is. Also loads a file again that has changed.
+    /// Lights the scene with the environment picture in a file, once it is loaded. Until then, and if loading fails,
+    /// the lighting doesn't change. A file that is already loaded is loaded again, because it may have changed.
     pub(super) fn open_environment(&mut self, path: &Path, ctx: &egui::Context) {
         self.load_environment(path.to_owned(), true, ctx);
     }
@@ -137,7 +137,8 @@ impl App {
             }
             Err(message) => {
                 let settings = &mut self.seen.settings;
-                // What the user opened isn't in the settings yet. Otherwise they name a file that can't be loaded.
+                // A file that the user opened isn't in the settings yet. Otherwise the settings name a file that can't
+                // be loaded.
                 if !is_opened && settings.environment_file.as_ref() == Some(&path) {
                     settings.keep_environment(EnvironmentSource::Scene);
                     settings.environment_file = None;
@@ -152,8 +153,8 @@ impl App {
         self.traced.environment_files.loading.is_some()
     }
 
-    /// Uses the environment of a document that was opened, if its file has one, in place of the chosen one, and tells so.
-    /// Other lights of a file shine together with the chosen environment.
+    /// Uses the environment of the opened file, if it has one, instead of the chosen one, and shows a message about
+    /// that. Other lights of the file are combined with the chosen environment.
     pub(super) fn use_environment_of_file(&mut self) {
         let lights = &self.open.document.loaded.lights;
         let has_environment = lights

@@ -19,10 +19,10 @@ pub(super) struct Notice {
     cause: Option<Obstacle>,
 }
 
-/// Why something can't be done; `None` if it can.
+/// Returns why something can't be done; `None` if it can.
 type Obstacle = fn(&App) -> Option<&'static str>;
 
-/// The most characters of an error or a warning, so that the picture stays visible.
+/// The maximum length of an error or a warning in characters, so that the picture stays visible.
 const LONGEST: usize = 800;
 
 /// The kind of a notice.

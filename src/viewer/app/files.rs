@@ -30,8 +30,8 @@ impl App {
         }
     }
 
-    /// Opens the next or the previous file of the folder, once it is found. The search begins at the file that was found
-    /// last, so that one that can't be loaded is left behind.
+    /// Opens the next or the previous file of the folder, once it is found. The search begins at the file that was
+    /// found last, so that one that can't be loaded is left behind.
     pub(crate) fn open_neighbour(&mut self, direction: Direction, ctx: &egui::Context) {
         let last = self.open.neighbours.last.as_ref();
         let Some(file) = last.or(self.open.document.path.as_ref()).cloned() else {
@@ -76,8 +76,7 @@ impl App {
         ));
     }
 
-    /// Stores the scene with the offset that the settings ask for: loads the open file again, or makes the built-in scene
-    /// again.
+    /// Applies the offset of the settings to the scene: loads the open file again, or creates the built-in scene again.
     pub(super) fn use_offset(&mut self, ctx: &egui::Context) {
         let wanted = self.seen.settings.offset();
         let document = &self.open.document;
@@ -130,7 +129,7 @@ impl App {
                 }
             }
             Err(mut message) => {
-                // Not tried again until the settings change.
+                // Loading isn't tried again until the settings change.
                 self.open.document.offset = self.seen.settings.offset();
                 if !path.exists() && self.preferences.recent.remove(&path) {
                     message += " (it is no longer listed under Open recent)";

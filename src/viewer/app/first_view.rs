@@ -6,8 +6,8 @@ use hitscope_core::Aabb;
 use hitscope_core::camera::Turntable;
 
 impl App {
-    /// Shows the view of the file's sensor, or the scene from the default direction; as the file's integrator sees it, if
-    /// there is one, and in the light of the file's environment, if it has one.
+    /// Shows the view of the file's sensor, or the scene from the default direction. Uses the integrator and the
+    /// environment of the file, if it has them.
     pub(super) fn use_first_view(&mut self) {
         self.seen.settings.file_view = self.open.document.loaded.integrator().map(|view| view.name);
         self.use_environment_of_file();
@@ -52,8 +52,8 @@ impl App {
         turntable.set_scene(self.open.document.loaded.scene.bounds_with_elements());
     }
 
-    /// Sets the picture's size. The file's view, while it is shown, keeps the whole film in the picture; a camera that frames
-    /// the scene frames it in the new size.
+    /// Sets the picture's size. If the file's view is shown, it keeps the whole film in the picture. If the camera
+    /// frames the scene, it frames it in the new size.
     pub(super) fn use_resolution(&mut self, resolution: UVec2) {
         if resolution == self.shown.resolution {
             return;
@@ -85,7 +85,7 @@ impl App {
         self.seen.turntable = view;
     }
 
-    /// The view of the file's sensor, about the axis for which it is more level.
+    /// The view of the file's sensor, with the up axis for which it is more level.
     fn view_of_file(&self) -> Option<Turntable> {
         let loaded = &self.open.document.loaded;
         let view = loaded.view.as_ref()?;

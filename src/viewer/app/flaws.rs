@@ -16,7 +16,8 @@ pub type ShownFlaw = Option<(Flaw, usize)>;
 pub(crate) type FlawSearch = Task<Option<FlawPlace>>;
 
 impl App {
-    /// Marks the flaws of a kind and frames the triangles around one of them, once they are found; `None` clears the mark.
+    /// Marks the flaws of a kind and frames the triangles around one of them, once they are found; `None` clears the
+    /// mark.
     pub(super) fn show_flaw(&mut self, shown: ShownFlaw, ctx: &egui::Context) {
         let findings = self.open.document.known_findings();
         let Some(((flaw, index), findings)) = shown.zip(findings) else {

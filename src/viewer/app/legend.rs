@@ -51,8 +51,8 @@ impl App {
         self.colour_scale().and_then(Result::ok)
     }
 
-    /// Draws the legend in the lower right corner of the picture. It is a widget, so that assistive technology reads it. A
-    /// picture that is too small has none.
+    /// Draws the legend in the lower right corner of the picture. It is a widget, so that assistive technology reads
+    /// it. A picture that is too small has none.
     pub(super) fn scale_legend_ui(&self, ui: &egui::Ui, canvas: Canvas) {
         let Some(scale) = self.legend() else { return };
         let size = BAR + vec2(4.0 * GAP, 2.0 * LINE + 3.0 * GAP);

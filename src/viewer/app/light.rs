@@ -9,7 +9,7 @@ use hitscope_core::integrator::Lighting;
 use hitscope_core::loading::LoadedScene;
 
 impl App {
-    /// The lights of a scene and the options of light transport; `None` while the view needs lights that are being made.
+    /// The lights of a scene and the options of light transport; `None` while the view needs lights that aren't ready.
     pub(super) fn lighting(
         &self,
         settings: &Settings,
@@ -61,7 +61,7 @@ impl App {
         }
     }
 
-    /// What is shown of the film.
+    /// How the film is shown.
     pub(super) fn look(&self) -> Look {
         Look::of(&self.seen.settings, &self.traced.tracer)
     }

@@ -17,8 +17,8 @@ pub(crate) struct Magnifier {
     zoom: f32,
     /// The middle of the part, from (0, 0) at the top left of the picture to (1, 1) at its bottom right.
     centre: Pos2,
-    /// Whether the scrolling in progress magnifies the picture. egui spreads scrolling over several frames. Meanwhile the
-    /// keys may be released, or the whole picture may be shown again.
+    /// Whether the scrolling in progress magnifies the picture. egui spreads scrolling over several frames. Meanwhile
+    /// the keys may be released, or the whole picture may be shown again.
     owns_scroll: bool,
     /// The values in large pixels.
     pub values: PixelValues,
@@ -71,8 +71,8 @@ impl Magnifier {
 }
 
 impl App {
-    /// Handles Ctrl+Shift+scroll, and while the picture is magnified, also scrolling and dragging. Returns whether it used
-    /// the input.
+    /// Handles Ctrl+Shift+scroll, and while the picture is magnified, also scrolling and dragging. Returns whether it
+    /// used the input.
     pub(super) fn magnify(&mut self, ui: &egui::Ui, response: &Response, canvas: Canvas) -> bool {
         let (modifiers, scroll, pinch) = ui.input(|input| {
             let scroll = input.smooth_scroll_delta();

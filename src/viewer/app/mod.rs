@@ -110,7 +110,7 @@ pub struct StartOptions {
     pub load_options: LoadOptions,
     /// If set, saves a screenshot and closes the window.
     pub screenshot: Option<crate::screenshot::ScreenshotOptions>,
-    /// When the program began.
+    /// The start time of the program.
     pub began: Instant,
     /// Memory of the strips in which pictures of any size are rendered, in bytes. Pictures don't depend on it.
     pub strip_bytes: u64,

@@ -135,7 +135,8 @@ impl App {
         self.animated(ctx, |app| app.seen.turntable.look_from(view));
     }
 
-    /// Orbits by angles in degrees: to the right, and upwards as far as straight above.
+    /// Orbits by angles in degrees, to the right and upwards. The pitch is limited to straight above and straight
+    /// below.
     pub(crate) fn orbit_by(&mut self, right: f64, up: f64, ctx: &egui::Context) {
         self.animated(ctx, |app| {
             let turntable = &mut app.seen.turntable;

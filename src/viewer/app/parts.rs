@@ -54,10 +54,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What is open, and work on files.
+/// The open document, and work on files.
 pub(crate) struct Open {
     pub document: Document,
-    /// Documents that were closed.
+    /// Closed documents, which a background task frees.
     pub retired: Retired,
     pub loading: Option<Loading>,
     pub load_options: LoadOptions,
@@ -146,7 +146,7 @@ pub(crate) struct Picked {
     pub pick: Option<Pick>,
     /// The next pick, while it is being inspected.
     pub picking: Option<Picking>,
-    /// The text of the pick that will be copied.
+    /// The task that writes the text of the pick to be copied.
     pub copying: Option<Task<String>>,
     pub inspecting: Inspecting,
     pub path: PickedPath,
@@ -161,14 +161,14 @@ pub(crate) struct Picked {
 }
 
 impl Picked {
-    /// Inspects no pick, and forgets a click that may become one.
+    /// Clears the inspected pick, and drops a click that may become one.
     pub fn clear_pick(&mut self) {
         (self.pick, self.picking, self.face_lookup) = (None, None, None);
         self.inspecting.picks.selected = None;
         self.clicks.pending = None;
     }
 
-    /// Marks no flaw.
+    /// Clears the mark of a flaw, and drops the search for one.
     pub fn forget_flaw(&mut self) {
         (self.flaw, self.flaw_search) = (None, None);
     }
@@ -197,7 +197,7 @@ pub(crate) struct Shown {
 }
 
 impl Shown {
-    /// Nothing yet in a program that began at this time.
+    /// The state before the first frame of a program that began at this time.
     pub fn new(render_state: &RenderState, began: Instant) -> Self {
         Self {
             palette: Palette::default(),

@@ -219,7 +219,7 @@ impl App {
             pick.crossing = None;
         }
         self.start_picking(camera, pixel, None, ctx);
-        // The list of parts has commands for the picked part.
+        // The list of parts stays open, because it has commands for the picked part.
         if self.preferences.tab != Tab::Parts {
             self.preferences.tab = Tab::Inspect;
         }
@@ -349,7 +349,7 @@ impl App {
             Ok(mut pick) => {
                 if let Some(document) = self.file_of(self.inspected_side()) {
                     let lines = &document.loaded.report.face_lines;
-                    // Nothing else uses it yet, so that nothing is copied.
+                    // Nothing else uses it yet, so `make_mut` doesn't copy it.
                     Arc::make_mut(&mut pick.inspection).find_line(lines);
                 }
                 let index = |pick: &Pick| pick.triangle().map(|triangle| triangle.index);

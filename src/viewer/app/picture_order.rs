@@ -1,4 +1,4 @@
-//! A picture of any size that was ordered: its rendering and saving on a thread of its own.
+//! Renders and saves a picture of any size on a thread of its own.
 
 use crate::gpu::GpuError;
 use crate::offscreen::OverlayTiles;
@@ -39,7 +39,7 @@ pub(super) struct OrderedOverlay {
     pub queue: wgpu::Queue,
 }
 
-/// What the window and the thread share.
+/// The state that the window and the thread share.
 #[derive(Default)]
 pub(super) struct OrderState {
     /// The traced part in thousandths.
@@ -66,7 +66,7 @@ impl OrderState {
     }
 }
 
-/// Why there is no picture.
+/// The reason why no picture was saved.
 enum Stopped {
     Cancelled,
     Failed(String),

@@ -22,8 +22,8 @@ impl App {
         request
     }
 
-    /// The request for a document as these settings show it. Without lighting, which the view needs, it is for the first
-    /// view of the table.
+    /// The request for a document with these settings. While the view lacks the lighting that it needs, the request is
+    /// for the first view of the table.
     pub(super) fn request_of(
         &self,
         document: &Document,

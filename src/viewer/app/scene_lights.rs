@@ -1,4 +1,4 @@
-//! The lights of a scene. If surfaces emit light, a background task makes them, because it looks at every primitive.
+//! The lights of a scene. If surfaces emit light, a background task makes them, because that visits every primitive.
 
 use crate::task::{Task, TaskPanicked};
 use hitscope_core::Scene;
@@ -7,7 +7,7 @@ use hitscope_core::loading::LoadedScene;
 use hitscope_core::mesh::Material;
 use std::sync::Arc;
 
-/// What lights are made from.
+/// The inputs from which lights are made.
 #[derive(Clone)]
 struct Basis {
     scene: Arc<Scene>,
@@ -26,13 +26,13 @@ impl PartialEq for Basis {
 pub(crate) struct SceneLights {
     made: Option<(Basis, Arc<Lights>)>,
     running: Option<(Basis, Task<Arc<Lights>>)>,
-    /// The lights that couldn't be made.
+    /// The inputs of the lights that couldn't be made.
     failed: Option<Basis>,
 }
 
 impl SceneLights {
-    /// The lights of a scene under an environment; the last ones of the scene while new ones are being made, and `None`
-    /// if there are none.
+    /// The lights of a scene with an environment. While they are being made, the previous lights of the scene, or
+    /// `None` if it has none yet.
     pub fn get(
         &mut self,
         loaded: &LoadedScene,
@@ -44,7 +44,7 @@ impl SceneLights {
         let wanted = Basis { scene, environment };
         let is_made = |(basis, _): &(Basis, _)| *basis == wanted;
         let is_known = self.made.as_ref().is_some_and(is_made);
-        // A running task isn't replaced, so that a slider that is dragged changes the picture.
+        // A running task isn't replaced, so that the picture changes while a slider is dragged.
         if !is_known && self.running.is_none() && self.failed.as_ref() != Some(&wanted) {
             let (basis, others) = (wanted.clone(), loaded.lights.clone());
             if has_emitting_material(&wanted.scene) {
@@ -77,13 +77,13 @@ impl SceneLights {
         Ok(())
     }
 
-    /// Drops the lights of other scenes. Those of the same scene under another clip are for this one now.
+    /// Drops the lights of other scenes. Lights of the same scene with another clip are kept for this scene.
     pub fn forget_others(&mut self, scene: &Arc<Scene>) {
         let is_other = |basis: &Basis| !basis.scene.has_shapes_of(scene);
         self.made.take_if(|(basis, _)| is_other(basis));
         self.running.take_if(|(basis, _)| is_other(basis));
         self.failed.take_if(|basis| is_other(basis));
-        // The old one isn't kept.
+        // The lights must not keep the old scene in memory.
         if let Some((basis, _)) = &mut self.made {
             basis.scene = Arc::clone(scene);
         }
@@ -95,7 +95,7 @@ impl SceneLights {
     }
 }
 
-/// Whether a surface may emit light.
+/// Whether a material of the scene emits light.
 fn has_emitting_material(scene: &Scene) -> bool {
     let materials = &scene.mesh().attributes().materials;
     materials.entries().iter().any(Material::emits)

@@ -20,7 +20,8 @@ impl App {
         self.traced.tracer.film()
     }
 
-    /// Whether the picture has all samples or has reached a limit, the overlay has all lines, and nothing is being loaded.
+    /// Whether the picture has all samples or has reached a limit, the overlay has all lines, and nothing is being
+    /// loaded.
     pub fn is_settled(&self) -> bool {
         let is_wanted = |request: &Request| {
             Arc::ptr_eq(&request.context.scene, &self.open.document.loaded.scene)

@@ -23,7 +23,8 @@ impl App {
         });
     }
 
-    /// The parts of the status line, most important first: a narrow window truncates it. Its tooltip lists them all.
+    /// The parts of the status line, most important first. A narrow window truncates the line; its tooltip lists all
+    /// parts.
     fn status_parts(&self) -> Vec<String> {
         let status = self.traced.tracer.status();
         let scene = &self.open.document.loaded.scene;
@@ -103,7 +104,7 @@ fn percent(error: f64) -> String {
     }
 }
 
-/// A number per second, such as `1.2 Mrays/s` or `350 samples/s`.
+/// A rate, such as `1.2 Mrays/s` or `350 samples/s`.
 fn speed(per_s: f64, unit: &str) -> String {
     match per_s {
         x if x >= 1e5 => format!("{:.1} M{unit}", x / 1e6),

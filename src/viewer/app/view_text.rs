@@ -43,7 +43,7 @@ impl App {
         let axes = [eye, -camera.back(), camera.up()];
         let bounds = scene.bounds_with_elements();
         let (projection, up_axis) = (camera.projection(), self.seen.settings.up_axis());
-        // The camera is valid; only its distance may leave no digits for a direction.
+        // The camera is valid, but it may be so far away that rounding leaves no direction.
         let too_far = || "the camera would be too far away".to_owned();
         let mut view =
             Turntable::looking(axes, projection, up_axis, bounds).map_err(|_| too_far())?;
@@ -66,7 +66,7 @@ impl App {
     }
 }
 
-/// Whether a turntable shows what a camera shows: it limits distances and heights.
+/// Whether a turntable has the view of a camera. It may not, because a turntable limits distances and heights.
 fn is_of(view: &Turntable, camera: &Camera) -> bool {
     /// Far more than the rounding of the turntable's angles, and far less than a limit changes.
     const ROUNDING: f64 = 1e-6;

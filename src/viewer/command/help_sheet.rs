@@ -29,7 +29,7 @@ pub fn help_ui(ctx: &egui::Context, navigation: &NavigationSettings) -> bool {
     response.inner || response.backdrop_response.clicked()
 }
 
-/// A table of which long texts wrap: no column takes more than a part of the width.
+/// A table in which long texts wrap: no column is wider than `part` of the available width.
 fn grid(ui: &egui::Ui, id: &str, columns: usize, part: f32) -> Grid {
     Grid::new(id)
         .num_columns(columns)

@@ -110,7 +110,7 @@ impl Palette {
         ui.add_space(4.0);
         ScrollArea::vertical()
             .max_height(height)
-            // The box starts with the height of the last list, and a longer list needs this to make it higher.
+            // The box opens with the height of the last list. Without this, a longer list couldn't make it higher.
             .min_scrolled_height(height)
             .auto_shrink([false, true])
             .show(ui, |ui| {

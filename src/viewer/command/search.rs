@@ -2,9 +2,9 @@
 
 /// How well a text matches a query; less is better, and `None` is no match.
 ///
-/// Best are titles, such as `Wireframe` in `View: Wireframe`, that begin with the query; then texts that contain all of its
-/// words, above all at the beginnings of words; then texts that contain its letters in their order. Upper and lower case
-/// count as the same.
+/// The best matches are titles, such as `Wireframe` in `View: Wireframe`, that begin with the query. Texts that contain
+/// all words of the query come next, above all at the beginnings of words. Texts that contain only its letters in their
+/// order come last. Case is ignored.
 pub fn rank(query: &str, text: &str) -> Option<u32> {
     /// Any match by letters is worse than all matches by words.
     const BY_LETTERS: u32 = 1 << 20;

@@ -6,7 +6,7 @@ use egui::{ComboBox, Frame, Margin, Panel, WidgetInfo};
 
 /// An item of the tool bar.
 enum Tool {
-    /// A button of the command with this name, and its text if the title is long.
+    /// A button of the command with this name, and a shorter text if its title is long.
     Button(&'static str, Option<&'static str>),
     /// A drop-down with a title for assistive technology, and the choices at a place of the menus.
     DropDown(&'static str, Place),

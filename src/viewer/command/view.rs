@@ -144,7 +144,7 @@ pub(super) const ROWS: &[Command] = &[
     },
 ];
 
-/// Shows the view so many further down the list; the first one follows the last.
+/// Shows the view that is `step` places further down the list. The first view follows the last.
 fn step_view(app: &mut App, step: isize) {
     let current = app.seen.settings.view().name;
     let index = INTEGRATORS.iter().position(|view| view.name == current);

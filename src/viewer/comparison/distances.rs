@@ -7,8 +7,8 @@ use hitscope_core::{Camera, Intersector, Scene};
 use hitscope_lab::surface_comparison::{DistancePicture, OneSided, Surface, diagonal};
 use std::sync::Arc;
 
-/// Sample points on each surface, besides its vertices. Fewer than the command `compare`'s default, because distances are
-/// measured whenever the scenes change.
+/// Sample points on each surface, besides its vertices. Fewer than the command `compare`'s default, because distances
+/// are measured whenever the scenes change.
 const POINTS: usize = 20_000;
 
 /// The scenes of both sides.

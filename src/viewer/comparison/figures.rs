@@ -30,7 +30,7 @@ pub struct ComparedPictures {
     pub visibility: Option<Visibility>,
 }
 
-/// Two ways to find the visible triangles of a scene.
+/// How the visible triangles of both sides are found.
 pub enum Visibility {
     /// The rasterizer, and rays through the centres of the pixels.
     TracedAndRasterized(Arc<dyn Intersector>, Arc<RasterizedPicture>),

@@ -80,7 +80,7 @@ impl Rasterized {
         (!others.is_empty()).then(|| others.join(", "))
     }
 
-    /// Uses the triangles that another side has uploaded of this scene.
+    /// Uses the triangles of this scene that another side has uploaded.
     pub fn share_mesh(&mut self, other: &Self, scene: &Scene) {
         let is_of = |mesh: &&Uploaded| mesh.0.has_shapes_of(scene);
         if self.mesh.as_ref().filter(is_of).is_none() {
@@ -93,8 +93,8 @@ impl Rasterized {
         }
     }
 
-    /// Draws a request, now or after the one being drawn. A view that can't be rasterized is replaced by the first view of
-    /// the table.
+    /// Draws a request, now or after the one being drawn. A view that can't be rasterized is replaced by the first view
+    /// of the table.
     pub fn request(&mut self, mut request: Request, ctx: &egui::Context) {
         if !can_rasterize(request.integrator) {
             request.integrator = hitscope_core::integrator::INTEGRATORS[0];

@@ -1,4 +1,4 @@
-//! A side B that is a picture in a file.
+//! Side B when it is a picture in a file.
 
 use crate::retired::{Retired, Shared};
 use crate::task::{KeyedTask, Task, TaskPanicked, in_own_pool};
@@ -54,7 +54,7 @@ impl Reference {
         (self.loading, self.is_stale) = (None, true);
     }
 
-    /// Collects a loaded picture, and retires the one before it. `longest` is the largest width and height allowed.
+    /// Collects a loaded picture, and retires the previous one. `longest` is the largest width and height allowed.
     ///
     /// # Errors
     /// Why there is no picture.

@@ -48,8 +48,8 @@ impl Packing {
         (self.next, self.wanted) = (Pending::Unasked, self.kernel);
     }
 
-    /// Switches to the wanted kernel once the scene is packed for it. Returns what that replaced. If packing failed, the
-    /// previous kernel stays.
+    /// Switches to the wanted kernel once the scene is packed for it. Returns the scene packed for the previous kernel,
+    /// if it was replaced. If packing failed, the previous kernel stays.
     pub fn poll(&mut self, scene: &Scene) -> Result<Option<Packed>, TaskPanicked> {
         match self.next.take() {
             Ok(None) => Ok(None),

@@ -61,13 +61,13 @@ impl Packed {
 
 impl Shared for Packed {
     fn is_shared(&self) -> bool {
-        // This holds the intersector twice: whole, and in its clipped form.
+        // `self` holds the intersector twice: in `whole` and in `clipped`.
         let is_same = Arc::ptr_eq(&self.whole, &self.clipped);
         Arc::strong_count(&self.whole) > 2 || (!is_same && self.clipped.is_shared())
     }
 }
 
-/// The building of a scene of which other primitives are shown.
+/// The construction of a scene that shows other primitives.
 pub(super) struct Showing {
     /// What is to be shown.
     wanted: ShownPrimitives,

@@ -1,7 +1,8 @@
 //! Drawing of the overlay: lines, hidden where a surface is in front of them.
 //!
-//! The overlay has its own colour and depth textures, so that the result doesn't depend on the window's. The
-//! depth of the mesh and of other shapes is drawn first, then the lines. Depth is reversed (1 near, 0 far), which keeps precision at a distance.
+//! The overlay has its own colour and depth textures, so that the result doesn't depend on the window's. The depth of
+//! the mesh and of other shapes is drawn first, then the lines. Depth is reversed (1 near, 0 far), which keeps
+//! precision at a distance.
 
 use super::depth::{DepthMesh, DepthPipeline};
 use super::lines::{LineKind, LinePipelines, LineSet, LineStyle, StyleUniform};

@@ -53,7 +53,7 @@ pub struct StyleUniform {
 }
 
 impl StyleUniform {
-    /// The style of this colour, width and stretch.
+    /// A style with this colour, width and stretch.
     pub const fn new(colour: [f32; 4], half_width_px: f32, stretch: f32) -> Self {
         Self {
             colour,
@@ -90,11 +90,11 @@ pub enum Fade {
     ShortOrDense,
     /// Where they are dense: for lines that consist of short pieces.
     Dense,
-    /// Where they are dense, whatever the direction to the next one: for lines at points that are spread over a surface.
+    /// Where they are dense in any direction: for lines at points that are spread over a surface.
     Spread,
 }
 
-/// What lines of one pipeline share.
+/// The properties by which lines share a pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LineKind {
     /// Whether surfaces hide the lines.
@@ -106,7 +106,7 @@ pub struct LineKind {
 }
 
 impl LineKind {
-    /// The number of kinds.
+    /// The number of kinds: 2 occlusions, 4 fades, cut or not.
     const COUNT: usize = 16;
 
     fn index(self) -> usize {

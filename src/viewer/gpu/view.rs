@@ -89,7 +89,8 @@ impl ViewUniform {
         let whole = Vec2::from_array(self.viewport).as_dvec2();
         let (min, size) = (part.min.as_dvec2(), (part.max - part.min).as_dvec2());
         let scale = whole / size;
-        // Clip coordinates of the part are those of the whole picture, scaled and shifted. y points up, pixel rows down.
+        // Clip coordinates of the part are those of the whole picture, scaled and shifted. y points up, pixel rows
+        // down.
         let shift_x = (whole.x - 2.0 * min.x - size.x) / size.x;
         let shift_y = (size.y - whole.y + 2.0 * min.y) / size.y;
         for column in &mut self.clip_from_eye {

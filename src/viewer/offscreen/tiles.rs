@@ -1,6 +1,6 @@
-//! Overlays drawn in tiles that the device can hold, as their rows are asked for.
+//! Draws overlays in tiles that the device can hold, one row of tiles at a time.
 //!
-//! The tiles don't depend on the rows, so that a picture drawn in strips is the picture drawn whole.
+//! The tiles don't depend on the strips of a picture, so that a picture in strips equals the picture drawn whole.
 
 use super::{blend, read_back};
 use crate::gpu::GpuError;
@@ -25,9 +25,9 @@ pub struct OverlayTiles {
     scene: Arc<Scene>,
     camera: Camera,
     view: ViewUniform,
-    /// The shapes that hide lines besides the mesh.
+    /// The shapes other than triangles, which also hide lines.
     shapes: Option<Shapes>,
-    /// Everything but the view and the traced shapes, which each tile has of its own.
+    /// The drawing that tiles share; each tile has its own view and traced shapes.
     drawing: Drawing,
     overlay: Overlay,
     /// The longest side of a tile.
@@ -106,8 +106,8 @@ impl OverlayTiles {
         })
     }
 
-    /// Passes the pixels of these rows to `run`, a part of a row at a time, with the index of the first one among the pixels
-    /// of the rows. Stops early once `goes_on` returns false.
+    /// Calls `run` for each part of a row inside a tile, with its pixels and the index of its first pixel, counted from
+    /// the first pixel of `rows`. Stops early once `goes_on` returns false.
     ///
     /// # Errors
     /// See [`GpuError`].
@@ -135,7 +135,7 @@ impl OverlayTiles {
         Ok(())
     }
 
-    /// Draws a row of tiles, unless it was the last one that was drawn. Returns false if `goes_on` has.
+    /// Draws a row of tiles, unless it is the row that was drawn last. Returns false if `goes_on` returned false.
     fn draw_row_of_tiles(
         &mut self,
         tile_row: u32,

@@ -88,8 +88,9 @@ impl OverlayLayer {
         self.painter.cancel();
     }
 
-    /// The overlays that are on, as a texture of the picture's size; `None` if nothing is drawn. While lines are gathered,
-    /// the last ones of the same kind are drawn, if there are any; a repaint is requested when the new ones are ready.
+    /// The overlays that are on, as a texture of the picture's size; `None` if nothing is drawn. While lines are
+    /// gathered, the last ones of the same kind are drawn, if there are any; a repaint is requested when the new ones
+    /// are ready.
     ///
     /// # Errors
     /// See [`OverlayError`].
@@ -103,8 +104,9 @@ impl OverlayLayer {
         self.draw_in(Motion::Still, input, overlays, ctx)
     }
 
-    /// Draws while the camera moves. Shapes other than meshes have no outlines and hide no lines then, because that takes
-    /// one traced ray per pixel of each view. On a software GPU nothing is drawn, so that the picture can keep up.
+    /// Draws while the camera moves. Shapes other than meshes have no outlines and hide no lines then, because that
+    /// takes one traced ray per pixel of each view. On a software GPU nothing is drawn, so that the picture can keep
+    /// up.
     ///
     /// # Errors
     /// See [`OverlayError`].

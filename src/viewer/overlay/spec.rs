@@ -196,7 +196,7 @@ impl LineSpec {
         }
     }
 
-    /// The same lines' kinds and styles in the order of drawing: those through surfaces first, then those in front of them.
+    /// Kinds and styles of the lines in the order of drawing: first through surfaces, then in front of them.
     pub(super) fn looks(&self, state: &OverlayState, scale: f32) -> Vec<(LineKind, StyleUniform)> {
         let style = self.style(state, scale);
         let mut looks = Vec::new();

@@ -10,17 +10,17 @@ use hitscope_core::{Camera, Intersector, Ray, Scene};
 use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 
-/// Within this many pixels of its border a surface doesn't hide lines behind it: half a line's width, half a pixel of soft
-/// edge, and a margin, so that it doesn't hide the lines on it. Outlines depend on as many pixels around them.
+/// Within this many pixels of its border a surface doesn't hide lines behind it: half a line's width, half a pixel of
+/// soft edge, and a margin, so that it doesn't hide the lines on it. Outlines depend on as many pixels around them.
 const REACH_PX: usize = 2;
 
-/// A surface hides lines that are farther than it by more than this many pixels, so that it doesn't hide the lines on it,
-/// whose pieces are chords: they may be deeper by the tolerance of lines, a tenth of a pixel.
+/// A surface hides lines that are farther than it by more than this many pixels, so that it doesn't hide the lines on
+/// it, whose pieces are chords: they may be deeper by the tolerance of lines, a tenth of a pixel.
 const SLACK_PX: f64 = 0.5;
 
-/// Between neighbouring pixels of one surface that show a fold, its depth changes by more than this factor of the change
-/// beside them. It changes less at a silhouette without a fold, where depth is proportional to the square root of the
-/// distance x from it, by at most (√(x+1) − √x)/(√(x+2) − √(x+1)) < 1 + √2.
+/// Between neighbouring pixels of one surface that show a fold, its depth changes by more than this factor of the
+/// change beside them. It changes less at a silhouette without a fold, where depth is proportional to the square root
+/// of the distance x from it, by at most (√(x+1) − √x)/(√(x+2) − √(x+1)) < 1 + √2.
 const FOLD: f32 = 3.0;
 
 /// The depth of a fold, in units of the slack: two pixels.
@@ -30,8 +30,8 @@ const FOLD_SLACKS: f32 = 4.0;
 #[derive(Clone, Default)]
 pub struct Shapes(Arc<OnceLock<Arc<dyn Intersector>>>);
 
-/// The surface visible in a pixel, with its reversed depth; 0 and `None` for a miss. The depth is that of a point behind
-/// the surface by the slack.
+/// The surface visible in a pixel, with its reversed depth; 0 and `None` for a miss. The depth is that of a point
+/// behind the surface by the slack.
 #[derive(Clone, Copy, PartialEq)]
 struct VisibleSurface {
     depth: f32,
@@ -49,8 +49,8 @@ impl VisibleSurface {
 }
 
 impl Shapes {
-    /// Traces one ray through the centre of each pixel of a part of the picture, row by row from the top. Takes as long as a
-    /// picture of one sample per pixel. `view` is that of the whole picture.
+    /// Traces one ray through the centre of each pixel of a part of the picture, row by row from the top. Takes as long
+    /// as a picture of one sample per pixel. `view` is that of the whole picture.
     pub fn trace(
         &self,
         scene: &Scene,
@@ -148,8 +148,8 @@ fn farthest_around(visible: &[VisibleSurface], size: UVec2) -> Vec<f32> {
         .collect()
 }
 
-/// The depth of the outline in a pixel, or −1 if there is none: the nearer of two neighbouring pixels that show different
-/// surfaces, or a fold of one surface in front of itself, has it; both do if they are equally near.
+/// The depth of the outline in a pixel, or −1 if there is none: the nearer of two neighbouring pixels that show
+/// different surfaces, or a fold of one surface in front of itself, has it; both do if they are equally near.
 fn outline(visible: &[VisibleSurface], size: UVec2, index: usize) -> f32 {
     let (width, height) = (size.x as usize, size.y as usize);
     let (x, y) = (index % width, index / width);

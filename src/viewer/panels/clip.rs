@@ -7,7 +7,7 @@ use egui::{RichText, SliderClamping};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Shows the section, for a scene with this box around it. Numbers that give no clip leave the old ones.
+/// Shows the section, for a scene with this box around it. If new numbers give no clip, the old ones stay.
 pub fn clip_ui(ui: &mut egui::Ui, clip: &mut ClipChoice, extent: &Extent, commands: &Commands) {
     ui.label(RichText::new("Clip").strong());
     ui.horizontal_wrapped(|ui| {
@@ -60,7 +60,7 @@ fn plane_ui(
         for (axis, name) in AXES.into_iter().enumerate() {
             let number = number_field(&mut normal[axis])
                 .speed(0.01)
-                // The beginning of a number may be zero.
+                // A number that is being typed may begin with zero.
                 .update_while_editing(false);
             ui.add(number).accessible_name(format!("Normal: {name}"));
         }
@@ -79,7 +79,7 @@ fn box_ui(ui: &mut egui::Ui, clip: &mut ClipChoice, size: f64, commands: &Comman
             for (axis, name) in AXES.into_iter().enumerate() {
                 let number = number_field(&mut corner[axis])
                     .speed(0.002 * size)
-                    // The beginning of a number may leave nothing of the box.
+                    // The box may be empty while a number is being typed.
                     .update_while_editing(false)
                     .prefix(format!("{name} "));
                 ui.add(number).accessible_name(format!("{title}: {name}"));

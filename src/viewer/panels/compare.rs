@@ -82,7 +82,7 @@ pub fn compare_ui(
     is_cancelled
 }
 
-/// What rasterized pictures are and lack.
+/// Describes rasterized pictures, and lists the shapes that they lack.
 fn rasterized_ui(ui: &mut egui::Ui, view: &CompareView<'_>) {
     ui.separator();
     let about = "Rasterized: one sample at the centre of each pixel. Views that trace light are replaced by Shaded.";

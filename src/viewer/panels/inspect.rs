@@ -268,7 +268,8 @@ fn triangle_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &TriangleReport) {
     });
 }
 
-/// The primitives that a ray hits at the same t as another one. A bad mesh may have a million of them.
+/// The text about the other primitives that a ray hits at the same t. It names only the first ones, because a bad mesh
+/// may have a million of them.
 fn also(primitives: &[u32]) -> String {
     const MOST: usize = 8;
     let (first, rest) = primitives.split_at(primitives.len().min(MOST));

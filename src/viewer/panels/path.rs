@@ -55,7 +55,7 @@ pub fn path_ui(ui: &mut egui::Ui, view: &PathView<'_>) -> Option<u32> {
     (selected != view.sample).then_some(selected)
 }
 
-/// Shows the vertices in a table, of which the first columns fit into the panel's default width, and notes about them.
+/// Shows the vertices in a table, and notes about them. The first columns fit into the panel's default width.
 fn table_of_vertices_ui(ui: &mut egui::Ui, path: &PathReport) {
     let vertices = || (1..).zip(&path.vertices);
     ui.label("Light that each surface adds to the colour, and the throughput of the path from there on (linear RGB)");
@@ -85,7 +85,7 @@ fn table_of_vertices_ui(ui: &mut egui::Ui, path: &PathReport) {
                     ui.add(egui::Label::new(text).extend());
                 }
             }
-            // The scroll bars lie over the last line otherwise.
+            // Otherwise the scroll bars cover the last line.
             ui.add_space(BELOW_TABLE);
         });
 }

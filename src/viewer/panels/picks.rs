@@ -31,7 +31,7 @@ pub struct PickRow {
     pub is_on_b: bool,
     /// Whether it is the one that is inspected.
     pub is_selected: bool,
-    /// What its ray hits.
+    /// The hit of its ray, or why there is none.
     pub hit: String,
 }
 
@@ -93,8 +93,8 @@ pub enum PicksChange {
     Walk(usize),
 }
 
-/// Shows the list of picks, the measurements between them and the walk. Returns what the user changes. The section opens
-/// by itself when there is a second pick or a walk.
+/// Shows the list of picks, the measurements between them and the walk. Returns what the user changes. The section
+/// opens by itself when there is a second pick or a walk.
 pub fn picks_ui(ui: &mut egui::Ui, view: &PicksView, commands: &Commands) -> Option<PicksChange> {
     let is_wanted = view.picks.len() > 1 || view.walk.is_some();
     let section = egui::CollapsingHeader::new("Picks and measurements")

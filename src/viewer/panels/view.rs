@@ -150,8 +150,8 @@ fn kernel_ui(ui: &mut egui::Ui, settings: &mut Settings, shapes: &[ShapeKernels]
         .on_hover_text(info.source);
 }
 
-/// The description of the chosen kernel; in a scene of one shape, of the kernel that the shape uses instead if its table
-/// lacks the chosen one.
+/// The description of the chosen kernel; in a scene of one shape, of the kernel that the shape uses instead if its
+/// table lacks the chosen one.
 pub fn shown_kernel(choice: KernelChoice, shapes: &[ShapeKernels]) -> &'static KernelInfo {
     match shapes {
         [shape] => choice.among(&shape.kernels).unwrap_or(choice.info),

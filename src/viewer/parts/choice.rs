@@ -115,7 +115,8 @@ impl PartsChoice {
             .collect()
     }
 
-    /// The same parts with black instead of each custom colour: what decides which primitives are shown and coloured.
+    /// The same choice with black for each custom colour. It determines which primitives are shown and which have a
+    /// colour.
     pub(super) fn without_colour_values(&self) -> Self {
         let mut plain = self.clone();
         plain.colours.iter_mut().for_each(|own| own.srgb = [0; 3]);

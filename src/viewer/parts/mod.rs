@@ -25,16 +25,16 @@ use search::{Matches, Search};
 use std::sync::Arc;
 use survey::{Lists, Order, Survey};
 
-/// A change of the part of a primitive, whose number is known once the parts are listed.
+/// A change to the part of a primitive. The part's number is known once the parts are listed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PartChange {
-    /// Hides it.
+    /// Hides the part.
     Hide,
-    /// Shows only it.
+    /// Shows only the part.
     ShowOnly,
 }
 
-/// What a survey depends on: the choices without the values of the colours, and the grouping that is listed.
+/// The inputs that determine a survey: the choice without the values of the colours, and the grouping that is listed.
 type SurveyKey = (PartsChoice, Option<Grouping>);
 
 /// The parts of a scene, and which primitives are to be shown.
@@ -65,7 +65,7 @@ pub struct Parts {
     coloured: Vec<PartKey>,
     /// The choice that the picture shows, and its primitives.
     applied: (PartsChoice, ShownPrimitives),
-    /// A change to be made to the part of a primitive once the parts are listed.
+    /// The change to make once the parts are listed, and the primitive whose part it changes.
     change: Option<(PartChange, u32)>,
 }
 
@@ -107,7 +107,8 @@ impl Parts {
         }
     }
 
-    /// The parts by the chosen grouping; `None` until [`update`](Self::update) has listed them, which this asks for.
+    /// The parts by the chosen grouping; `None` until [`update`](Self::update) has listed them, which this call
+    /// requests.
     pub fn list(&mut self) -> Option<Arc<PartList>> {
         self.wants_list = true;
         self.listed().map(Arc::clone)
@@ -130,11 +131,11 @@ impl Parts {
         self.has_failed
     }
 
-    /// Applies the choice to the scene in the background, if it has changed, and lists the parts, if they were asked for.
-    /// Collects the result.
+    /// Applies the choice to the scene in the background, if it has changed, and lists the parts, if they were asked
+    /// for. Collects the result.
     ///
     /// # Errors
-    /// [`TaskPanicked`], once, if the task panicked; the picture's choice is back then.
+    /// [`TaskPanicked`], once, if the task panicked; the choice is then the one that the picture shows.
     pub fn update(&mut self, scene: &Arc<Scene>, ctx: &egui::Context) -> Result<(), TaskPanicked> {
         if !self.is_stale() {
             self.survey.cancel();

@@ -1,4 +1,4 @@
-//! The search for parts by their names. A mesh may have as many parts as triangles, so a background task does it.
+//! The search for parts by their names. A mesh may have as many parts as triangles, so a background task searches.
 
 use super::list::PartList;
 use crate::task::{KeyedTask, Task, TaskPanicked};
@@ -7,7 +7,7 @@ use std::sync::Arc;
 /// The numbers of the parts that a search found, in their order.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Matches {
-    /// The first so many parts: all of them.
+    /// All parts, and their number.
     All(usize),
     /// These parts.
     Some(Arc<Vec<usize>>),

@@ -1,4 +1,4 @@
-//! The choices about parts applied to a scene. A background task does it, because it looks at every primitive.
+//! Applies the choices about parts to a scene. A background task does this, because it visits every primitive.
 
 use super::choice::PartsChoice;
 use super::list::{Grouping, Part, PartKey, PartList};
@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// The parts by each grouping, once they are listed.
 pub(super) type Lists = [Option<Arc<PartList>>; Grouping::ALL.len()];
 
-/// What a survey is made from.
+/// The inputs of a survey.
 pub(super) struct Order {
     pub scene: Arc<Scene>,
     pub choice: PartsChoice,

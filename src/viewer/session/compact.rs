@@ -1,4 +1,4 @@
-//! Short texts of sessions: what has its default is left out, and a list is on one line.
+//! Compact JSON of sessions: fields with default values are left out, and each list is on one line.
 
 use serde::ser::Error as _;
 use serde::{Serialize, Serializer};
@@ -6,13 +6,13 @@ use serde_json::Value;
 use serde_json::ser::{Formatter, PrettyFormatter};
 use std::io::{self, Write};
 
-/// Serializes the fields of a value that differ from its default. Those that are missing have it.
+/// Serializes the fields of a value that differ from the default. A reader gives missing fields the default.
 pub(super) fn changed<T, S>(value: &T, serializer: S) -> Result<S::Ok, S::Error>
 where
     T: Serialize + Default,
     S: Serializer,
 {
-    // By the text: a number of f32 has few digits there.
+    // Through text, in which an f32 has few digits.
     let plain = |value: &T| serde_json::from_str(&serde_json::to_string(value)?);
     let both = plain(value).and_then(|value| Ok((value, plain(&T::default())?)));
     let (mut value, default): (Value, Value) = both.map_err(S::Error::custom)?;

@@ -8,7 +8,8 @@ use hitscope_core::camera::Projection;
 use serde::{Deserialize, Serialize};
 use std::ops::Not;
 
-/// The largest number of a pick in a session.
+/// The largest number of a pick in a session. It is far below `u32::MAX`, so that the numbers of later picks don't
+/// overflow.
 const MAX_NUMBER: u32 = 1_000_000_000;
 
 /// A picked pixel, with the camera of the picture that was clicked.

@@ -5,9 +5,9 @@ use hitscope_core::film::Noise;
 /// Conditions that end refinement before all samples are traced. They hold for views that need lights.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Limits {
-    /// Seconds by the clock since the view began, without pauses.
+    /// Wall-clock seconds since the view began, without pauses.
     pub secs: Option<f64>,
-    /// [`Noise::mean`].
+    /// The limit on [`Noise::mean`].
     pub noise: Option<f64>,
 }
 
@@ -26,7 +26,7 @@ pub const LEAST_SAMPLES: u32 = 16;
 impl Limits {
     /// The condition that is satisfied after so many seconds and samples per pixel.
     pub fn reached(&self, secs: f64, samples: u32, noise: Option<Noise>) -> Option<StopReason> {
-        // A picture that is black so far may only not have found its lights.
+        // The samples of a picture that is still black may not have reached its lights yet.
         let is_calm = |limit: f64| {
             let is_less = |noise: Noise| noise.luminance > 0.0 && noise.mean <= limit;
             samples >= LEAST_SAMPLES && noise.is_some_and(is_less)

@@ -64,7 +64,7 @@ mod tests {
             "{total:?} {whole:?}"
         );
         assert!((total.worst / whole.worst - 1.0).abs() < 1e-12);
-        // Of 0 and x: the mean and the standard error are x/2, so that the mean error is all of the luminance.
+        // For 0 and x, the mean and the standard error are x/2, so that the mean error equals the mean luminance.
         assert!((total.mean - 1.0).abs() < 1e-6, "{total:?}");
     }
 }

@@ -43,7 +43,7 @@ impl Tracer {
         }
     }
 
-    /// Requests a frame for the end of the time limit: until then, no tile may arrive.
+    /// Requests a frame for the end of the time limit, because no tile may arrive until then.
     pub(super) fn await_time_limit(&self, ctx: &egui::Context) {
         if let (Some(limit), Some(posted)) = (self.limits.secs, &self.posted)
             && posted.is_lit()
@@ -51,7 +51,7 @@ impl Tracer {
             && !self.is_finished()
         {
             let left = limit - posted.refined.elapsed().as_secs_f64();
-            // Days are later than anyone looks.
+            // At least a millisecond; at most a day, the largest time limit that can be set.
             ctx.request_repaint_after(Duration::from_secs_f64(left.clamp(0.001, 86_400.0)));
         }
     }

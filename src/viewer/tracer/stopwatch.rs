@@ -10,7 +10,7 @@ pub(super) struct Stopwatch {
 }
 
 impl Stopwatch {
-    /// Runs or stands still from now on.
+    /// Starts or stops the stopwatch.
     pub fn run(&mut self, is_running: bool) {
         if !is_running {
             (self.before, self.since) = (self.elapsed(), None);

@@ -1,7 +1,7 @@
 //! Random actions cause no panic and no error of the graphics device, and closing the window frees the memory.
 //!
-//! `HITSCOPE_MONKEY=10000` sets the number of actions, `HITSCOPE_MONKEY_SEED=7` the seed of the first window. Each window
-//! gets at most [`PER_WINDOW`] of them, and the next seed.
+//! `HITSCOPE_MONKEY=10000` sets the number of actions, `HITSCOPE_MONKEY_SEED=7` the seed of the first window. Each
+//! window gets at most [`PER_WINDOW`] of them, and the next seed.
 
 mod actions;
 mod files;
@@ -83,7 +83,7 @@ fn random_actions_cause_no_panic_or_gpu_error() {
                 "seed {window_seed}: {actions} actions in {secs} s; memory before {before:.1} MB, after {after:.1} MB"
             ));
         }
-        // Only in a measurement, which `HITSCOPE_MONKEY` asks for: it fails, for a reason that isn't known.
+        // Only in a measurement, which `HITSCOPE_MONKEY` requests: the check fails, and the cause isn't known.
         if number("HITSCOPE_MONKEY").is_some() {
             require_memory_back(before, after);
         }

@@ -12,7 +12,8 @@ use hitscope_core::film::ShownPixel;
 use hitscope_core::scene::Shading;
 
 impl App {
-    /// The side that a click at a position on the screen inspects: side A also where a side B is shown that isn't traced.
+    /// The side that a click at a position on the screen inspects: side A also where a side B is shown that isn't
+    /// traced.
     pub(in crate::app) fn side_at(&self, pos: Pos2, canvas: Canvas) -> Side {
         let is_b = match self.seen.comparison.mode {
             Mode::A | Mode::Difference | Mode::Distance => false,

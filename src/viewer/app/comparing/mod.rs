@@ -5,7 +5,7 @@
 //! | this file | [`Compared`], the owner of side B |
 //! | `sides` | the documents of side B; tracing and rasterizing them |
 //! | `screen` | drawing side B, the divider and the difference |
-//! | `rasterized_side` | a side A that is rasterized |
+//! | `rasterized_side` | side A when it is rasterized |
 //! | `measured` | figures of the differences, distances, the distance map |
 //! | `inspected` | inspection of side B |
 //! | `chosen` | the commands, and the tab *Compare* |
@@ -40,7 +40,7 @@ pub(crate) struct Compared {
     mesh: Option<Document>,
     /// The open file before it was last reloaded.
     earlier: Option<Document>,
-    /// Documents that were dropped.
+    /// Dropped documents, which a background task frees.
     retired: Retired,
     loading: Option<Loading>,
     lights: SceneLights,
@@ -128,8 +128,8 @@ impl Compared {
         !has_document && !has_picture && !has_reference && !has_a && self.loading.is_none()
     }
 
-    /// Keeps the document that a reload replaced. Returns the one that isn't needed any longer: the version before it; the
-    /// document itself, if another file was opened.
+    /// Keeps the document that a reload replaced. Returns the document that is no longer needed: the previous version,
+    /// or `old` itself if another file was opened.
     pub fn keep_earlier(&mut self, old: Document, is_same_file: bool) -> Option<Document> {
         old.stop_improving();
         let before = self.earlier.take();
@@ -143,7 +143,7 @@ impl Compared {
         Some(old)
     }
 
-    /// Drops the document of another file.
+    /// Drops the mesh of another file that was side B.
     fn drop_mesh(&mut self) {
         if let Some(mesh) = self.mesh.take() {
             self.retired.add(mesh);

@@ -1,4 +1,4 @@
-//! A side A that is rasterized: its picture replaces the traced one, whose request it has.
+//! Side A when it is rasterized. Its picture replaces the traced one, and both have the same request.
 
 use super::Compared;
 use crate::app::App;
@@ -60,7 +60,7 @@ impl App {
         Ok(())
     }
 
-    /// Width and height of side A, and its pixels as they are shown; `None` before the first ones.
+    /// Width and height of side A, and its pixels as they are shown; `None` before there are pixels.
     pub(super) fn pixels_of_a(&self) -> Option<(UVec2, &[[u8; 4]])> {
         if self.rasterizes_a() {
             let picture = self.compared.picture_of_a()?;

@@ -31,8 +31,9 @@ pub(super) struct Screen {
     pub changes: [u64; 2],
     /// The changes and the gain that the difference shows.
     difference_of: Option<([u64; 2], f32)>,
-    /// The rasterized pictures of side A and of side B that are drawn.
+    /// The rasterized picture of side A that is drawn.
     rasterized_a: Option<Arc<RasterizedPicture>>,
+    /// The rasterized picture of side B that is drawn.
     rasterized: Option<Arc<RasterizedPicture>>,
 }
 
@@ -82,7 +83,7 @@ impl Screen {
 
 /// A picture of the differences.
 struct Difference {
-    /// The changes of both sides, and the gain.
+    /// The number of changes of each side, and the gain.
     of: ([u64; 2], f32),
     /// Width and height, and the pixels; `None` while the sizes of the sides differ.
     picture: Option<(UVec2, Vec<[u8; 4]>)>,
@@ -288,7 +289,7 @@ impl App {
         self.error(error);
     }
 
-    /// The shape of a rasterized side A, which replaces the traced picture; `None` until there is one, and if the mode
+    /// The shape of a rasterized side A, which replaces the traced picture; `None` until it is drawn, and if the mode
     /// doesn't show side A.
     fn shape_of_a(&mut self, canvas: Canvas, overlay: Option<&wgpu::Texture>) -> Option<Shape> {
         let is_shown = self.rasterizes_a() && (self.shows(Mode::A) || self.shows(Mode::Wipe));
@@ -379,7 +380,7 @@ impl App {
     }
 }
 
-/// Covers a part of the picture and says why there is nothing in it.
+/// Covers a part of the picture and says why it is empty.
 fn empty_ui(ui: &egui::Ui, painter: &egui::Painter, rect: Rect, reason: &'static str) {
     painter.rect_filled(rect, 0.0, ui.visuals().panel_fill);
     let (font, colour) = (FontId::proportional(14.0), ui.visuals().text_color());

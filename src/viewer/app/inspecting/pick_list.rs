@@ -1,4 +1,4 @@
-//! The state of the list of picks, and what is known about them.
+//! The list of picks, and the results of tracing their rays.
 
 use crate::comparison::Side;
 use crate::measuring::{MeasuredPoint, Measurements};
@@ -55,7 +55,7 @@ impl PartialEq for SideBasis {
 }
 
 impl SideBasis {
-    /// A camera of the open scene in the coordinates of this one. Moving by 0 changes no bit.
+    /// A camera of the open scene in the coordinates of this one. An offset of 0 changes no bit.
     fn camera(&self, camera: &Camera) -> Camera {
         if self.offset == DVec3::ZERO {
             *camera
@@ -64,7 +64,7 @@ impl SideBasis {
         }
     }
 
-    /// What a pick's ray hits.
+    /// The hit of a pick's ray.
     fn hit(&self, camera: &Camera, pixel: UVec2, snapping: Snapping) -> Option<PickedPoint> {
         let (scene, intersector) = (&self.scene, &*self.intersector);
         let place = (&self.camera(camera), pixel);
@@ -74,7 +74,7 @@ impl SideBasis {
     }
 }
 
-/// What the hits of the picks depend on.
+/// The inputs that determine the hits of all picks.
 #[derive(Clone, PartialEq)]
 pub(crate) struct Basis {
     /// Side A and side B; `None` if the side isn't traced or has no picks.
@@ -95,7 +95,7 @@ impl Basis {
     }
 }
 
-/// What the details of the selected pick depend on.
+/// The inputs that determine the details of the selected pick.
 #[derive(Clone, PartialEq)]
 pub(crate) struct DetailBasis {
     pub side: SideBasis,
@@ -162,7 +162,7 @@ impl Picks {
         self.list.retain(|pick| pick.is_pinned);
     }
 
-    /// Replaces the list. Picks whose number is 0 or taken get the next one.
+    /// Replaces the list. Picks whose number is 0 or already taken get new numbers.
     pub fn restore(&mut self, picks: impl IntoIterator<Item = PickedPixel>) {
         self.clear();
         let mut unnumbered = Vec::new();

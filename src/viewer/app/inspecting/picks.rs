@@ -1,4 +1,4 @@
-//! The list of picks: what the user changes, and what their rays hit, which is traced in the background.
+//! Changes to the list of picks by the user, and the background tasks that trace their rays.
 
 use super::pick_list::{Basis, DetailBasis, SideBasis};
 use crate::app::App;
@@ -79,7 +79,7 @@ impl App {
         Ok(())
     }
 
-    /// What the details of the selected pick depend on; `None` if none are wanted.
+    /// The inputs that determine the details of the selected pick; `None` if no details are wanted.
     fn detail_basis(&self) -> Option<DetailBasis> {
         let picks = &self.picked.inspecting.picks;
         let wants = [picks.measures_thickness, picks.shows_walk];

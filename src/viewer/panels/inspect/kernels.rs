@@ -1,4 +1,4 @@
-//! The section of the Inspect tab with the answers of all kernels beside the exact one.
+//! The section of the Inspect tab that compares the answers of all kernels with the exact answer.
 
 use super::also;
 use crate::numbers::{number, significant};
