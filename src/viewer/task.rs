@@ -69,8 +69,10 @@ pub fn in_own_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
 }
 
 /// A result that a background task computes.
+#[derive(Default)]
 pub enum Pending<T> {
     /// No task was started.
+    #[default]
     Unasked,
     /// The task is running.
     Running(Task<T>),

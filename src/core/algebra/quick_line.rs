@@ -47,6 +47,12 @@ pub struct QuickLine {
 /// The largest relative error of an operation.
 pub(super) const U: f64 = f64::EPSILON / 2.0;
 
+/// The sum of the magnitudes of the coordinates.
+#[inline(always)]
+pub(super) fn length1(v: DVec3) -> f64 {
+    v.abs().element_sum()
+}
+
 impl QuickLine {
     #[inline(always)]
     pub fn of(ray: &Ray) -> Self {
@@ -69,7 +75,7 @@ impl QuickLine {
         let l = f + m * self.dir;
         let r = f64::from(distance);
         let difference = r * r - l.length_squared();
-        let h = 12.0 * U * (f.x.abs() + f.y.abs() + f.z.abs());
+        let h = 12.0 * U * length1(f);
         let error = (2.0 * r + h) * h + 5.0 * U * r * r;
         // Comparisons with NaN are false, and bounds that aren't finite are refused.
         if difference < -error && distance > 0.0 {

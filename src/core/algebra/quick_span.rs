@@ -29,7 +29,7 @@
 
 use super::interval::Interval;
 use super::interval_roots::RootIntervals;
-use super::quick_line::{QuickLine, U};
+use super::quick_line::{QuickLine, U, length1};
 use glam::{DVec3, Vec3};
 
 /// The crossing of a line with the plane of two half axes.
@@ -86,12 +86,6 @@ impl QuickLine {
     }
 }
 
-/// The sum of the magnitudes of the coordinates.
-#[inline(always)]
-fn length1(v: DVec3) -> f64 {
-    v.x.abs() + v.y.abs() + v.z.abs()
-}
-
 impl QuickSpan {
     /// The crossing if |a| ≤ 1 and |b| ≤ 1; `None` if that isn't certain.
     #[inline(always)]
@@ -124,10 +118,11 @@ impl QuickSpan {
     #[inline(always)]
     fn decided(&self, is_inside: bool, is_outside: bool) -> Option<RootIntervals> {
         if is_outside {
-            return Some(RootIntervals::NONE);
+            Some(RootIntervals::NONE)
+        } else if is_inside {
+            RootIntervals::NONE.with(self.t)
+        } else {
+            None
         }
-        is_inside
-            .then(|| RootIntervals::NONE.with(self.t))
-            .flatten()
     }
 }

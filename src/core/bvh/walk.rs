@@ -85,8 +85,9 @@ pub(crate) trait Visitor<S: Simd> {
     /// Whether the ray's interval may begin behind its origin.
     const IS_BEHIND: bool;
 
-    /// Whether the visitor records the opened nodes.
-    const NOTES_NODES: bool;
+    /// Whether a tree's only block is visited only by rays that meet its box. Hits don't depend on that test, but lists of
+    /// boxes and candidates do.
+    const NEEDS_BOX_TEST: bool;
 
     /// Processes a block and returns the farthest t of interest; a break ends the walk. Boxes at exactly that
     /// distance and a little behind it are still visited.
@@ -235,7 +236,7 @@ impl Bvh {
     ) {
         if !self.nodes.is_empty() {
             let mut walk = Walk::start(token, ray);
-            if self.block_count() == 1 && !V::NOTES_NODES {
+            if self.block_count() == 1 && !V::NEEDS_BOX_TEST {
                 // Hits don't depend on the box test of a single block, so it is skipped.
                 _ = visitor.visit(0, &walk.slabs);
                 return;

@@ -45,14 +45,13 @@ impl SampleSum {
             return true;
         }
         let radiance = radiance.max(Vec3::ZERO);
-        let Vec3 { x, y, z } = radiance;
-        let is_whole = |x: f32| (WHOLE..ONE as f32).contains(&x) || x == 0.0;
-        let (rgb, luminance) = if is_whole(x) && is_whole(y) && is_whole(z) {
-            ([whole(x), whole(y), whole(z)], luminance_f64(radiance))
+        let rgb = radiance.to_array().map(|x| fixed(x.into()));
+        let is_whole = |x: f32| x >= WHOLE || x == 0.0;
+        let luminance = if radiance.to_array().into_iter().all(is_whole) {
+            luminance_f64(radiance)
         } else {
-            let rgb = radiance.to_array().map(|x| fixed(x.into()));
             // The luminance of the numbers that the mean is computed from.
-            (rgb, luminance_of(rgb.map(|x| x as f64 / ONE)))
+            luminance_of(rgb.map(|x| x as f64 / ONE))
         };
         self.merge(&Self {
             rgb,
@@ -171,19 +170,6 @@ fn fixed(x: f64) -> u128 {
 /// The least number from which on [`fixed`] drops none of the 24 binary digits of an f32.
 const WHOLE: f32 = 1.0 / (1_u64 << (PLACES - 24)) as f32;
 
-/// Fixed-point digits as by [`fixed`], but only for 0 and numbers from [`WHOLE`] to 2⁶⁴.
-///
-/// An f32 is its 24 digits times 2 to the power of its biased exponent − 150: the bias is 127, and 23 digits follow the
-/// point.
-#[inline]
-fn whole(x: f32) -> u128 {
-    let bits = x.to_bits();
-    // 0 has no leading digit, and an exponent that is too small.
-    let lead = u32::from(x != 0.0) << 23;
-    let digits = bits & ((1 << 23) - 1) | lead;
-    u128::from(digits) << ((bits >> 23).max(150 - PLACES as u32) - (150 - PLACES as u32))
-}
-
 /// The digits and the exponent of a number that isn't negative. Those of 0 and subnormal numbers are wrong, but too
 /// small to matter.
 fn parts(x: f64) -> (u128, i32) {
@@ -262,13 +248,10 @@ mod tests {
             for _ in 0..20 {
                 let x = f64::from((random.unit() + 1.0) as f32) * 2f64.powi(exponent);
                 assert_eq!(fixed(x), (x * ONE) as u128, "{x}");
-                if (WHOLE.into()..ONE).contains(&x) {
-                    assert_eq!(whole(x as f32), fixed(x), "{x}");
-                }
             }
         }
         assert_eq!((fixed(0.0), fixed(f64::INFINITY)), (0, u128::MAX));
-        assert_eq!((whole(0.0), whole(WHOLE)), (0, 1 << 24));
+        assert_eq!((fixed(0.0), fixed(WHOLE.into())), (0, 1 << 24));
     }
 
     #[test]

@@ -294,7 +294,7 @@ pub(crate) fn candidates(bvh: &Bvh, ray: &Ray) -> Vec<u32> {
     }
     impl<S: Simd> Visitor<S> for Gathered<'_> {
         const IS_BEHIND: bool = true;
-        const NOTES_NODES: bool = true;
+        const NEEDS_BOX_TEST: bool = true;
         fn visit(&mut self, block: usize, _: &SlabRay<S>) -> ControlFlow<(), f32> {
             self.found.extend_from_slice(self.bvh.block(block));
             ControlFlow::Continue(self.t_max)

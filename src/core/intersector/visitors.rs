@@ -15,7 +15,7 @@ pub(super) struct Nearest<S: Simd, T: Tester<S>, const MAYBE_COMPACT: bool> {
 
 impl<S: Simd, T: Tester<S>, const MAYBE_COMPACT: bool> Visitor<S> for Nearest<S, T, MAYBE_COMPACT> {
     const IS_BEHIND: bool = false;
-    const NOTES_NODES: bool = false;
+    const NEEDS_BOX_TEST: bool = false;
 
     #[inline(always)]
     fn visit(&mut self, block: usize, slabs: &SlabRay<S>) -> ControlFlow<(), f32> {
@@ -43,7 +43,7 @@ pub(super) struct Any<T, const MAYBE_COMPACT: bool> {
 
 impl<S: Simd, T: Tester<S>, const MAYBE_COMPACT: bool> Visitor<S> for Any<T, MAYBE_COMPACT> {
     const IS_BEHIND: bool = false;
-    const NOTES_NODES: bool = false;
+    const NEEDS_BOX_TEST: bool = false;
 
     #[inline(always)]
     fn visit(&mut self, block: usize, slabs: &SlabRay<S>) -> ControlFlow<(), f32> {
@@ -85,7 +85,7 @@ pub(super) struct Each<'b, S: Simd, T: Tester<S>> {
 
 impl<S: Simd, T: Tester<S>> Visitor<S> for Each<'_, S, T> {
     const IS_BEHIND: bool = true;
-    const NOTES_NODES: bool = true;
+    const NEEDS_BOX_TEST: bool = true;
 
     fn visit(&mut self, block: usize, slabs: &SlabRay<S>) -> ControlFlow<(), f32> {
         self.cost.primitives += (self.count)(block) as u32;

@@ -35,7 +35,7 @@ pub(super) struct Emitters {
 impl Emitters {
     pub fn of_scene(scene: &Scene) -> Self {
         let materials = &scene.mesh().attributes().materials;
-        let any = materials.entries().iter().any(Material::emits);
+        let any = scene.mesh().attributes().emits();
         let count = if any { scene.primitive_count() } else { 0 };
         let mut found = Self {
             lights: Vec::new(),

@@ -283,16 +283,12 @@ impl Merged {
 
     fn append_materials(&mut self, attributes: &Attributes) {
         let entries = attributes.materials.entries();
-        // Triangles without a material have the default one.
-        let is_bare = entries.iter().all(|entry| *entry == Material::default());
-        if is_bare {
-            let material = match attributes.colours.is_empty() {
-                true => without_bsdf(),
-                false => Material::default(),
-            };
+        if attributes.is_bare() {
             let count = entries.len().max(1);
-            self.materials.extend(repeat_n(material, count));
+            self.materials.extend(repeat_n(without_bsdf(), count));
             return;
+        } else if entries.is_empty() {
+            self.materials.push(Material::default());
         }
         let first_texture = self.textures.len() as u32;
         self.textures.extend_from_slice(&attributes.textures);

@@ -1,7 +1,7 @@
 //! What was loaded, as the text of a scene file.
 
 use super::{LoadedScene, StartView};
-use crate::mesh::{self, TriangleMesh};
+use crate::mesh::TriangleMesh;
 use crate::scene_file::{
     self, Bsdf, EmitterKind, Obj, Parameter, Place, Plugin, SceneFile, Shape, ShapeKind, Side,
     Value, WriteError,
@@ -50,10 +50,7 @@ pub fn scene_text(
 
 /// A scene of one OBJ file.
 fn of_mesh(path: &Path, mesh: &TriangleMesh) -> SceneFile {
-    let attributes = mesh.attributes();
-    let mut materials = attributes.materials.entries().iter();
-    let is_bare = attributes.colours.is_empty()
-        && materials.all(|material| *material == mesh::Material::default());
+    let is_bare = mesh.attributes().is_bare();
     SceneFile {
         materials: if is_bare { vec![clay()] } else { Vec::new() },
         shapes: vec![Shape {

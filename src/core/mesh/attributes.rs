@@ -48,6 +48,17 @@ impl Attributes {
         self.faces.end().max(normals).max(coordinates)
     }
 
+    /// Whether the file gives no appearance: no vertex has a colour, and no triangle a material of its own.
+    pub fn is_bare(&self) -> bool {
+        let mut materials = self.materials.entries().iter();
+        self.colours.is_empty() && materials.all(|material| *material == Material::default())
+    }
+
+    /// Whether a material emits light.
+    pub fn emits(&self) -> bool {
+        self.materials.entries().iter().any(Material::emits)
+    }
+
     /// Releases unused memory of the per-triangle lists.
     pub(crate) fn shrink(&mut self) {
         self.faces.shrink();

@@ -85,6 +85,18 @@ impl Alpha {
     }
 }
 
+/// The pixels of a film as they are displayed, in sRGB with straight alpha, row by row from the top; opaque without
+/// `alpha`.
+///
+/// # Panics
+/// If the film and the alpha differ in size.
+pub fn shown_pixels(film: &Film, alpha: Option<&Alpha>) -> Vec<[u8; 4]> {
+    match alpha {
+        Some(alpha) => alpha.shown(film),
+        None => film.pixels().to_vec(),
+    }
+}
+
 /// The number of a pixel's samples that hit a surface.
 fn hit_count(camera: &Camera, intersector: &dyn Intersector, pixel: UVec2, samples: u32) -> u32 {
     let mut hits = [None; PACKET];

@@ -16,7 +16,7 @@ mod open_exr;
 mod rows;
 mod surfaces;
 
-pub use alpha::Alpha;
+pub use alpha::{Alpha, shown_pixels};
 pub use file::{PictureEncoding, PictureFile};
 pub use guides::{Guide, Guides, guides};
 pub use open_exr::{NO_PRIMITIVE, PictureError, write_depth, write_exr, write_ids};

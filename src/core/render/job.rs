@@ -100,6 +100,7 @@ impl Job {
         };
         let mut rays = 0;
         for pixel in self.plan.pixels(unit) {
+            let pixel = self.plan.in_whole(pixel);
             batch.sums.push(SampleSum::default());
             for sample in samples.clone() {
                 batch.add(pixel, sample);
@@ -130,17 +131,15 @@ impl Job {
     fn traced(&self, places: &[Place]) -> (Vec<Sample>, u32) {
         let context = &self.context;
         let ray = |place: &Place| {
-            let pixel = self.plan.in_whole(place.pixel);
-            let at = Plan::position(pixel, place.sample);
-            context.camera.ray(pixel, at)
+            let at = Plan::position(place.pixel, place.sample);
+            context.camera.ray(place.pixel, at)
         };
         let rays: Vec<Ray> = places.iter().map(ray).collect();
         let mut hits = vec![None; rays.len()];
         context.intersector.coherent_hits(&rays, &mut hits);
         let all = places.iter().zip(rays).zip(hits);
         let sample = |((place, ray), hit): ((&Place, Ray), Option<Hit>)| {
-            let pixel = self.plan.in_whole(place.pixel);
-            Sample::new(ray, hit, Sampler::new(pixel, place.sample))
+            Sample::new(ray, hit, Sampler::new(place.pixel, place.sample))
         };
         let mut samples: Vec<Sample> = all.map(sample).collect();
         let hits = samples.iter().filter(|sample| sample.hit.is_some()).count();
@@ -164,7 +163,7 @@ struct SampleBatch<'a> {
     hits: u32,
 }
 
-/// A sample: the index of its pixel's sum, the pixel, and its index among the pixel's samples.
+/// A sample: the index of its pixel's sum, the pixel in the whole picture, and its index among the pixel's samples.
 #[derive(Clone, Copy)]
 struct Place {
     sum: usize,
@@ -187,8 +186,7 @@ impl SampleBatch<'_> {
         let (samples, hits) = catch_unwind(AssertUnwindSafe(together)).unwrap_or_else(|panic| {
             // Trace the samples one by one to find the one that panics.
             for place in &self.places {
-                let pixel = self.job.plan.in_whole(place.pixel);
-                self.at.set((pixel, place.sample));
+                self.at.set((place.pixel, place.sample));
                 self.job.traced(from_ref(place));
             }
             resume_unwind(panic)

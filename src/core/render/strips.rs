@@ -5,7 +5,7 @@
 
 use super::job::{Job, RenderError, render_while};
 use crate::film::{BYTES_PER_PIXEL, Film};
-use crate::picture::{Alpha, TraceError};
+use crate::picture::{Alpha, TraceError, shown_pixels};
 use crate::plan::TILE_PX;
 use crate::progress::Progress;
 use glam::UVec2;
@@ -102,10 +102,7 @@ impl Strip {
 
     /// The pixels as they are displayed, in sRGB with straight alpha, row by row from the top.
     pub fn pixels(&self) -> Vec<[u8; 4]> {
-        match &self.alpha {
-            Some(alpha) => alpha.shown(&self.film),
-            None => self.film.pixels().to_vec(),
-        }
+        shown_pixels(&self.film, self.alpha.as_ref())
     }
 }
 

@@ -17,7 +17,7 @@ use hitscope_core::film::{BYTES_PER_PIXEL, Noise, NoiseSum};
 use hitscope_core::integrator::{Comparison, Integrator, Setting};
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::loading::LoadedScene;
-use hitscope_core::picture::{Alpha, Guides};
+use hitscope_core::picture::{Alpha, Guides, shown_pixels};
 use hitscope_core::plan::PixelRect;
 use hitscope_core::scene::{FirstTree, Shading};
 use hitscope_core::{Camera, Film};
@@ -91,10 +91,7 @@ pub struct Rendered {
 impl Rendered {
     /// The pixels as they are displayed, in sRGB with straight alpha, row by row from the top.
     pub fn pixels(&self) -> Vec<[u8; 4]> {
-        match &self.alpha {
-            Some(alpha) => alpha.shown(&self.film),
-            None => self.film.pixels().to_vec(),
-        }
+        shown_pixels(&self.film, self.alpha.as_ref())
     }
 
     /// The noise of these rows; zero with one sample per pixel, where it isn't known.

@@ -2,7 +2,7 @@
 //! bad mesh.
 
 use super::App;
-use crate::task::Task;
+use crate::task::{Pending, Task};
 use std::sync::Arc;
 
 impl App {
@@ -18,19 +18,14 @@ impl App {
             inspection.path = path;
             inspection.to_json()
         };
-        self.picked.copying = Some(Task::spawn("copy", ctx, write));
+        self.picked.copying = Pending::Running(Task::spawn("copy", ctx, write));
     }
 
     /// Copies the text once it is written.
     pub(super) fn poll_copying(&mut self, ctx: &egui::Context) {
-        let text = match self.picked.copying.as_ref().map(Task::poll) {
-            None | Some(Ok(None)) => return,
-            Some(Ok(Some(text))) => Ok(text),
-            Some(Err(panicked)) => Err(panicked),
-        };
-        self.picked.copying = None;
-        match text {
-            Ok(text) => ctx.copy_text(text),
+        match self.picked.copying.take() {
+            Ok(None) => {}
+            Ok(Some(text)) => ctx.copy_text(text),
             Err(panicked) => self.error(panicked),
         }
     }

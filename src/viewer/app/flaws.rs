@@ -2,7 +2,7 @@
 
 use super::App;
 use crate::flaw_place::FlawPlace;
-use crate::task::Task;
+use crate::task::{Pending, Task};
 use hitscope_core::mesh::Flaw;
 use std::sync::Arc;
 
@@ -11,9 +11,6 @@ const FLAW_DISTANCE: f64 = 3.0;
 
 /// A kind of flaw and the index of one of its flaws, counted from 0; or none.
 pub type ShownFlaw = Option<(Flaw, usize)>;
-
-/// The search for a flaw's place.
-pub(crate) type FlawSearch = Task<Option<FlawPlace>>;
 
 impl App {
     /// Marks the flaws of a kind and frames the triangles around one of them, once they are found; `None` clears the
@@ -27,21 +24,20 @@ impl App {
         let scene = Arc::clone(&self.open.document.loaded.scene);
         // In the background: all triangles are searched for the adjacent ones.
         let find = move || FlawPlace::find(scene.mesh(), &findings.health, flaw, index);
-        self.picked.flaw_search = Some(Task::spawn("flaw", ctx, find));
+        self.picked.flaw_search = Pending::Running(Task::spawn("flaw", ctx, find));
     }
 
     /// Marks a flaw and frames the triangles around it once they are found.
     pub(super) fn poll_flaw(&mut self) {
-        let found = match self.picked.flaw_search.as_ref().map(Task::poll) {
-            None | Some(Ok(None)) => return,
-            Some(Ok(Some(found))) => found,
-            Some(Err(panicked)) => {
+        let found = match self.picked.flaw_search.take() {
+            Ok(None) => return,
+            Ok(Some(found)) => found,
+            Err(panicked) => {
                 self.picked.forget_flaw();
                 self.error(panicked);
                 return;
             }
         };
-        self.picked.flaw_search = None;
         if let Some(place) = &found {
             // Shows some of the surface around it.
             self.frame_bounds(place.bounds, FLAW_DISTANCE);

@@ -13,7 +13,6 @@ use super::Sheet;
 use super::dialogs::Dialogs;
 use super::environment::EnvironmentFiles;
 use super::files::Neighbours;
-use super::flaws::FlawSearch;
 use super::framing::PartBounds;
 use super::inspecting::Inspecting;
 use super::legend::RangeFit;
@@ -38,7 +37,7 @@ use crate::retired::Retired;
 use crate::saving::Saving;
 use crate::session::Session;
 use crate::settings::Settings;
-use crate::task::Task;
+use crate::task::{Pending, Task};
 use crate::times::Times;
 use crate::tracer::Tracer;
 use crate::trade::Trade;
@@ -147,7 +146,7 @@ pub(crate) struct Picked {
     /// The next pick, while it is being inspected.
     pub picking: Option<Picking>,
     /// The task that writes the text of the pick to be copied.
-    pub copying: Option<Task<String>>,
+    pub copying: Pending<String>,
     pub inspecting: Inspecting,
     pub path: PickedPath,
     /// The lookup of the pick's face in the file, while it runs.
@@ -155,7 +154,7 @@ pub(crate) struct Picked {
     /// The flaw that is shown; all of its kind are marked.
     pub flaw: Option<FlawPlace>,
     /// The search for the flaw that will be shown.
-    pub flaw_search: Option<FlawSearch>,
+    pub flaw_search: Pending<Option<FlawPlace>>,
     /// The search for the bounds of the part that will be framed.
     pub part_bounds: Option<PartBounds>,
 }
@@ -170,7 +169,7 @@ impl Picked {
 
     /// Clears the mark of a flaw, and drops the search for one.
     pub fn forget_flaw(&mut self) {
-        (self.flaw, self.flaw_search) = (None, None);
+        (self.flaw, self.flaw_search) = (None, Pending::Unasked);
     }
 }
 

@@ -9,7 +9,7 @@ use hitscope_core::tone::Display;
 use hitscope_lab::commands::{CommandError, Output, PngRows, default_thread_count};
 use std::ops::Range;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// The file format of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,9 +44,8 @@ pub(super) struct OrderedOverlay {
 pub(super) struct OrderState {
     /// The traced part in thousandths.
     thousandths: AtomicU32,
-    is_cancelled: AtomicBool,
-    /// Cancels the tracing of the alpha of a transparent background.
-    alpha: Progress,
+    /// Cancels the work.
+    progress: Progress,
 }
 
 impl OrderState {
@@ -57,12 +56,11 @@ impl OrderState {
 
     /// Stops the thread, which then frees its memory.
     pub fn cancel(&self) {
-        self.is_cancelled.store(true, Ordering::Relaxed);
-        self.alpha.cancel();
+        self.progress.cancel();
     }
 
     fn goes_on(&self) -> bool {
-        !self.is_cancelled.load(Ordering::Relaxed)
+        self.progress.check().is_ok()
     }
 }
 
@@ -141,7 +139,7 @@ impl Order {
             state.goes_on()
         };
         let threads = default_thread_count();
-        let mut strip = Strip::render(&self.job, rows, threads, &state.alpha, goes_on)?;
+        let mut strip = Strip::render(&self.job, rows, threads, &state.progress, goes_on)?;
         strip.film.set_display(self.display);
         Ok(strip)
     }

@@ -4,7 +4,6 @@ use crate::task::{Task, TaskPanicked};
 use hitscope_core::Scene;
 use hitscope_core::light::{Environment, Light, Lights};
 use hitscope_core::loading::LoadedScene;
-use hitscope_core::mesh::Material;
 use std::sync::Arc;
 
 /// The inputs from which lights are made.
@@ -47,7 +46,7 @@ impl SceneLights {
         // A running task isn't replaced, so that the picture changes while a slider is dragged.
         if !is_known && self.running.is_none() && self.failed.as_ref() != Some(&wanted) {
             let (basis, others) = (wanted.clone(), loaded.lights.clone());
-            if has_emitting_material(&wanted.scene) {
+            if wanted.scene.mesh().attributes().emits() {
                 let make = move || Arc::new(made_of(&basis, others));
                 self.running = Some((wanted, Task::spawn("lights", ctx, make)));
             } else {
@@ -93,12 +92,6 @@ impl SceneLights {
     pub fn is_pending(&self) -> bool {
         self.running.is_some()
     }
-}
-
-/// Whether a material of the scene emits light.
-fn has_emitting_material(scene: &Scene) -> bool {
-    let materials = &scene.mesh().attributes().materials;
-    materials.entries().iter().any(Material::emits)
 }
 
 /// Makes the lights. `others` are those of the scene's file.

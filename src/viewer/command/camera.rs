@@ -119,46 +119,34 @@ pub(super) const ROWS: &[Command] = &[
         "Looks from above, the front and the right",
         |app, ctx, _| app.look_from(StandardView::Isometric, ctx),
     ),
-    Command {
-        place: ORBIT,
-        ..look_from(
-            "orbit-left",
-            &[key(Key::Num4)],
-            "Orbit left",
-            "Orbits 15° to the left",
-            |app, ctx, _| app.orbit_by(-ORBIT_STEP, 0.0, ctx),
-        )
-    },
-    Command {
-        place: ORBIT,
-        ..look_from(
-            "orbit-right",
-            &[key(Key::Num6)],
-            "Orbit right",
-            "Orbits 15° to the right",
-            |app, ctx, _| app.orbit_by(ORBIT_STEP, 0.0, ctx),
-        )
-    },
-    Command {
-        place: ORBIT,
-        ..look_from(
-            "orbit-up",
-            &[key(Key::Num8)],
-            "Orbit up",
-            "Orbits 15° upwards",
-            |app, ctx, _| app.orbit_by(0.0, ORBIT_STEP, ctx),
-        )
-    },
-    Command {
-        place: ORBIT,
-        ..look_from(
-            "orbit-down",
-            &[key(Key::Num2)],
-            "Orbit down",
-            "Orbits 15° downwards",
-            |app, ctx, _| app.orbit_by(0.0, -ORBIT_STEP, ctx),
-        )
-    },
+    orbit(
+        "orbit-left",
+        &[key(Key::Num4)],
+        "Orbit left",
+        "Orbits 15° to the left",
+        |app, ctx, _| app.orbit_by(-ORBIT_STEP, 0.0, ctx),
+    ),
+    orbit(
+        "orbit-right",
+        &[key(Key::Num6)],
+        "Orbit right",
+        "Orbits 15° to the right",
+        |app, ctx, _| app.orbit_by(ORBIT_STEP, 0.0, ctx),
+    ),
+    orbit(
+        "orbit-up",
+        &[key(Key::Num8)],
+        "Orbit up",
+        "Orbits 15° upwards",
+        |app, ctx, _| app.orbit_by(0.0, ORBIT_STEP, ctx),
+    ),
+    orbit(
+        "orbit-down",
+        &[key(Key::Num2)],
+        "Orbit down",
+        "Orbits 15° downwards",
+        |app, ctx, _| app.orbit_by(0.0, -ORBIT_STEP, ctx),
+    ),
     Command {
         name: "orthographic",
         keys: &[key(Key::Num5)],
@@ -268,6 +256,20 @@ const fn switch(
         is_on: Some(is_on),
         obstacle: none,
         run,
+    }
+}
+
+/// A command that orbits by a step.
+const fn orbit(
+    name: &'static str,
+    keys: &'static [egui::KeyboardShortcut],
+    title: &'static str,
+    tooltip: &'static str,
+    run: fn(&mut App, &egui::Context, &eframe::Frame),
+) -> Command {
+    Command {
+        place: ORBIT,
+        ..look_from(name, keys, title, tooltip, run)
     }
 }
 

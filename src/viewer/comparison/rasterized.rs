@@ -1,4 +1,4 @@
-//! A side B whose visible triangles are found by the GPU's rasterizer and shaded as in the traced picture.
+//! A side whose visible triangles are found by the GPU's rasterizer and shaded as in the traced picture.
 
 use crate::gpu::GpuError;
 use crate::gpu::rasterizer::{RasterMesh, RasterPixel, Rasterizer};
@@ -22,6 +22,13 @@ pub struct RasterizedPicture {
     pub triangles: Vec<u32>,
     /// sRGB with alpha 255, row by row from the top.
     pub pixels: Vec<[u8; 4]>,
+}
+
+impl RasterizedPicture {
+    /// Width and height in pixels.
+    pub fn size(&self) -> UVec2 {
+        self.request.context.camera.resolution()
+    }
 }
 
 /// The triangles of a scene on the GPU, and the scene.

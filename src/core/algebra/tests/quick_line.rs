@@ -1,6 +1,7 @@
 //! Tests of roots in plain f64 against exact numbers.
 
 use super::super::crossing::CrossingSolver;
+use super::super::interval_roots::RootIntervals;
 use super::super::pieces::Pieces;
 use super::super::quick_line::QuickLine;
 use crate::random::Random;
@@ -8,6 +9,7 @@ use crate::ray::Ray;
 use crate::shape::Sphere;
 use glam::DVec3;
 use std::cmp::Ordering;
+use std::fmt::Debug;
 
 /// A sphere, and a line that passes its surface at a distance of 1 to 10⁻¹⁵ radii on either side, from up to 10⁵ radii away.
 fn near_miss(random: &mut Random) -> Option<(Sphere, Ray)> {
@@ -29,6 +31,18 @@ fn near_miss(random: &mut Random) -> Option<(Sphere, Ray)> {
     Some((sphere, ray.ok()?))
 }
 
+/// Requires that the bounds of quick roots contain the exact crossings, one each.
+pub(super) fn require_exact<P: Pieces + Debug>(shape: &P, ray: &Ray, roots: &RootIntervals) {
+    let mut solver = CrossingSolver::new(ray);
+    let mut exact = solver.exact_crossings(shape);
+    assert_eq!(exact.len(), roots.len(), "{shape:?} {ray:?}");
+    for (crossing, bounds) in exact.iter_mut().zip(roots.iter()) {
+        let mut order = |t: f64| solver.compare_with_number(shape, crossing, t);
+        assert_ne!(order(bounds.lo), Ordering::Less, "{shape:?} {ray:?}");
+        assert_ne!(order(bounds.hi), Ordering::Greater, "{shape:?} {ray:?}");
+    }
+}
+
 #[test]
 fn quick_roots_contain_the_exact_roots_of_nearly_tangent_lines() {
     let mut random = Random::new(40);
@@ -41,14 +55,7 @@ fn quick_roots_contain_the_exact_roots_of_nearly_tangent_lines() {
             continue;
         };
         decided[roots.len()] += 1;
-        let mut solver = CrossingSolver::new(&ray);
-        let mut exact = solver.exact_crossings(&sphere);
-        assert_eq!(exact.len(), roots.len(), "{sphere:?} {ray:?}");
-        for (crossing, bounds) in exact.iter_mut().zip(roots.iter()) {
-            let mut order = |t: f64| solver.compare_with_number(&sphere, crossing, t);
-            assert_ne!(order(bounds.lo), Ordering::Less, "{sphere:?} {ray:?}");
-            assert_ne!(order(bounds.hi), Ordering::Greater, "{sphere:?} {ray:?}");
-        }
+        require_exact(&sphere, &ray, &roots);
     }
     assert!(decided[0] > 20_000 && decided[2] > 20_000, "{decided:?}");
 }

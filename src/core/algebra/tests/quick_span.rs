@@ -1,13 +1,12 @@
 //! Tests of crossings with rectangles and disks in plain f64 against exact numbers.
 
-use super::super::crossing::CrossingSolver;
 use super::super::pieces::Pieces;
 use super::super::quick_line::QuickLine;
+use super::quick_line::require_exact;
 use crate::random::Random;
 use crate::ray::Ray;
 use crate::shape::{Disk, Rectangle, Span};
 use glam::DVec3;
-use std::cmp::Ordering;
 use std::fmt::Debug;
 
 /// A centre and half axes, and a line that crosses their plane near the border of the rectangle or the ellipse.
@@ -56,14 +55,7 @@ fn compare<P: Pieces + Debug>(is_ellipse: bool, shape: impl Fn(Span) -> P) {
             continue;
         };
         decided[roots.len()] += 1;
-        let mut solver = CrossingSolver::new(&ray);
-        let mut exact = solver.exact_crossings(&shape);
-        assert_eq!(exact.len(), roots.len(), "{shape:?} {ray:?}");
-        for (crossing, bounds) in exact.iter_mut().zip(roots.iter()) {
-            let mut order = |t: f64| solver.compare_with_number(&shape, crossing, t);
-            assert_ne!(order(bounds.lo), Ordering::Less, "{shape:?} {ray:?}");
-            assert_ne!(order(bounds.hi), Ordering::Greater, "{shape:?} {ray:?}");
-        }
+        require_exact(&shape, &ray, &roots);
     }
     assert!(decided[0] > 10_000 && decided[1] > 10_000, "{decided:?}");
 }

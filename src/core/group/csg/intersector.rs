@@ -37,7 +37,7 @@ struct CrossingVisitor<'a, F> {
 
 impl<F: FnMut(u32, Vec<RankedHit>) -> f32> Visitor<Baseline> for CrossingVisitor<'_, F> {
     const IS_BEHIND: bool = true;
-    const NOTES_NODES: bool = true;
+    const NEEDS_BOX_TEST: bool = true;
 
     fn visit(&mut self, block: usize, slabs: &SlabRay<Baseline>) -> ControlFlow<(), f32> {
         if let Some(steps) = &mut self.steps {

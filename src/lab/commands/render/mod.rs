@@ -71,7 +71,7 @@ A name ending in .exr gives linear radiance in f32 with the layers albedo,
 normal, Z, id, sampleCount and variance, for denoisers and compositing;
 exposure and tone curve don't change it. Output files appear under their
 names once they are complete. PNG pictures are rendered in strips of 256 MB of
-memory; others, and those with --depth-map or --ids, take 89 bytes per pixel.";
+memory; others, and those with --depth-map or --ids, take 105 bytes per pixel.";
 
 /// Render pictures to PNG or OpenEXR files
 #[derive(Args, Clone, Debug)]
@@ -290,7 +290,9 @@ impl RenderArgs {
         }
         if self.format()? == PictureFormat::Exr {
             let rendered = view.trace(0..view.size().y, meter)?;
-            noise.merge(&rendered.noise_sum());
+            if self.noise {
+                noise.merge(&rendered.noise_sum());
+            }
             let (guides, alpha) = (rendered.guides.as_deref(), rendered.alpha.as_ref());
             output.write_exr(&rendered.film, guides, alpha)?;
             return Ok(noise);

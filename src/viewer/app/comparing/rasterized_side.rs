@@ -64,7 +64,7 @@ impl App {
     pub(super) fn pixels_of_a(&self) -> Option<(UVec2, &[[u8; 4]])> {
         if self.rasterizes_a() {
             let picture = self.compared.picture_of_a()?;
-            return Some((picture.request.context.camera.resolution(), &picture.pixels));
+            return Some((picture.size(), &picture.pixels));
         }
         let film = self.traced.tracer.film();
         let has_pixels = film.passes_done() > 0;

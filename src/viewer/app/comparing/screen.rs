@@ -53,15 +53,7 @@ impl Screen {
         render_state: &eframe::egui_wgpu::RenderState,
         newest: &Arc<RasterizedPicture>,
     ) -> Result<bool, GpuError> {
-        let is_known = |known: &Arc<_>| Arc::ptr_eq(known, newest);
-        if self.rasterized_a.as_ref().is_some_and(is_known) {
-            return Ok(false);
-        }
-        let size = newest.request.context.camera.resolution();
-        let picture = self.a.get_or_insert_with(|| Picture::new(render_state));
-        picture.upload(size, &newest.pixels, whole(size))?;
-        self.rasterized_a = Some(Arc::clone(newest));
-        Ok(true)
+        upload_rasterized(render_state, newest, &mut self.a, &mut self.rasterized_a)
     }
 
     /// Drops the rasterized picture of side A.
@@ -96,6 +88,25 @@ fn whole(size: UVec2) -> PixelRect {
     }
 }
 
+/// Uploads a rasterized picture of a side that draws `shown`. Returns whether it is a new one.
+fn upload_rasterized(
+    render_state: &eframe::egui_wgpu::RenderState,
+    newest: &Arc<RasterizedPicture>,
+    picture: &mut Option<Picture>,
+    shown: &mut Option<Arc<RasterizedPicture>>,
+) -> Result<bool, GpuError> {
+    if shown
+        .as_ref()
+        .is_some_and(|known| Arc::ptr_eq(known, newest))
+    {
+        return Ok(false);
+    }
+    let picture = picture.get_or_insert_with(|| Picture::new(render_state));
+    picture.upload(newest.size(), &newest.pixels, whole(newest.size()))?;
+    *shown = Some(Arc::clone(newest));
+    Ok(true)
+}
+
 impl Compared {
     /// Uploads what has changed of side B. Returns whether anything has.
     fn upload(
@@ -119,15 +130,9 @@ impl Compared {
             }
             Source::Rasterized => {
                 let newest = self.rasterized.picture();
-                let address = |picture: Option<&Arc<_>>| picture.map(Arc::as_ptr);
-                let is_new = address(newest) != address(screen.rasterized.as_ref());
-                if let (true, Some(newest)) = (is_new, newest) {
-                    let size = newest.request.context.camera.resolution();
-                    let other = other.get_or_insert_with(picture);
-                    other.upload(size, &newest.pixels, whole(size))?;
-                    screen.rasterized = Some(Arc::clone(newest));
-                }
-                Ok(is_new)
+                newest.map_or(Ok(false), |newest| {
+                    upload_rasterized(render_state, newest, other, &mut screen.rasterized)
+                })
             }
             Source::Picture => {
                 // A panic has been printed to the terminal, and the old pixels stay.
@@ -159,8 +164,7 @@ impl Compared {
             }
             Source::Rasterized => {
                 let picture = self.screen.rasterized.as_ref()?;
-                let size = picture.request.context.camera.resolution();
-                Some((size, &picture.pixels))
+                Some((picture.size(), &picture.pixels))
             }
             Source::Picture => {
                 let size = self.reference.picture()?.size;
