@@ -163,6 +163,14 @@ impl Plan {
         self.tiles().element_product() as usize
     }
 
+    /// The block size of the first pass, in pixels.
+    pub fn first_step(&self) -> u32 {
+        match self.pass(0) {
+            Pass::Lattice { step } => step,
+            Pass::Samples { .. } => 1,
+        }
+    }
+
     /// Number of work units in all passes.
     pub fn unit_count(&self) -> usize {
         self.tile_count() * self.pass_count()

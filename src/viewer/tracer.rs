@@ -5,6 +5,7 @@
 //! first view of the table. The view follows once nothing has changed for a while, and replaces the preview when its
 //! own first pass is done.
 
+mod collecting;
 mod limits;
 mod noise;
 mod pacing;
@@ -22,7 +23,7 @@ use crate::times::Times;
 use glam::{UVec2, Vec3};
 use hitscope_core::integrator::{Context, INTEGRATORS};
 use hitscope_core::plan::{Pass, PixelRect, Plan};
-use hitscope_core::render::{Job, Message, RenderPanic, Renderer, TileResult};
+use hitscope_core::render::{Job, Renderer, TileResult};
 use hitscope_core::{Camera, Film, Scene};
 use noise::TileNoise;
 use pacing::LOOK;
@@ -31,9 +32,6 @@ use speed::Speed;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use stopwatch::Stopwatch;
-
-/// Time limit for collecting tiles in one frame.
-const COLLECTING: Duration = Duration::from_millis(6);
 
 /// Traces the newest request.
 pub struct Tracer {
@@ -105,49 +103,10 @@ impl Tracer {
         }
     }
 
-    /// Collects the tiles that the threads have sent. Returns panics.
-    pub fn collect(&mut self, ctx: &egui::Context) -> Vec<RenderPanic> {
-        let start = Instant::now();
-        let mut panics = Vec::new();
-        while let Some(message) = self.renderer.try_next() {
-            match message {
-                Message::Tile(tile) => self.add(&tile),
-                Message::Panicked(unit, panic) => {
-                    self.film.skip(unit);
-                    panics.push(panic);
-                }
-            }
-            if start.elapsed() > COLLECTING {
-                // The remaining tiles are collected in the next frame.
-                ctx.request_repaint();
-                break;
-            }
-        }
-        self.check_limits();
-        if self.film.passes_done() > 0 {
-            self.shows_lit = self.is_lit();
-        }
-        self.note_luminance();
-        if self.film.passes_done() > 0
-            && let Some(posted) = &self.posted
-            && !self.is_shown(&posted.request.context)
-        {
-            let Context { scene, camera, .. } = &posted.request.context;
-            self.shown = Some((Arc::clone(scene), *camera));
-            self.count_frame();
-        }
-        self.end_hold(ctx);
-        self.await_time_limit(ctx);
-        panics
-    }
-
     /// Traces the view whose preview is shown, with the preview's block size. The preview stays until the view's first
     /// pass is done.
     fn begin_view(&mut self) {
-        let of_preview = match self.film.plan().pass(0) {
-            Pass::Lattice { step } => step,
-            Pass::Samples { .. } => 1,
-        };
+        let of_preview = self.film.plan().first_step();
         let step = match self.chosen_step {
             // The user chose the preview's blocks, but the view itself is slower.
             Some(_) => self

@@ -119,7 +119,8 @@ impl Film {
     pub fn add(&mut self, tile: &TileSamples) -> PixelRect {
         let pass = self.plan.pass(tile.unit.pass);
         let rect = self.plan.tile_rect(tile.unit.tile);
-        self.begin_tile(tile.unit.tile);
+        // A later pass has no samples where an earlier one has.
+        let is_alone = self.begin_tile(tile.unit.tile) && tile.unit.pass == 0;
         let samples = pass.samples_per_pixel();
         let pixels: Vec<UVec2> = self.plan.pixels(tile.unit).collect();
         for (pixel, sum) in pixels.into_iter().zip(&tile.sums) {
@@ -132,19 +133,26 @@ impl Film {
             self.counts[i] += samples;
             self.shown_step[i] = 0;
             self.pixels[i] = self.encoded(i, &self.display);
-            if let Pass::Lattice { step } = pass {
+            if let Pass::Lattice { step } = pass
+                && !is_alone
+            {
                 self.fill_block(pixel, step);
             }
+        }
+        if let Pass::Lattice { step } = pass
+            && is_alone
+        {
+            self.fill_blocks(rect, step);
         }
         self.tiles_done[tile.unit.pass] += 1;
         rect
     }
 
-    /// Discards a tile's samples of an earlier plan.
-    fn begin_tile(&mut self, tile: usize) {
+    /// Discards a tile's samples of an earlier plan. Returns whether it had none of this plan.
+    fn begin_tile(&mut self, tile: usize) -> bool {
         let state = &mut self.tiles[tile];
         if state.has_samples {
-            return;
+            return false;
         }
         (state.has_samples, state.camera) = (true, self.camera);
         let rect = self.plan.tile_rect(tile);
@@ -153,6 +161,7 @@ impl Film {
             self.counts[row.clone()].fill(0);
             self.shown_step[row].fill(u8::MAX);
         }
+        true
     }
 
     /// The indices of a rectangle's pixels in a row.
@@ -177,6 +186,28 @@ impl Film {
                     self.shown_step[i] = step as u8;
                     self.pixels[i] = colour;
                 }
+            }
+        }
+    }
+
+    /// Does for all blocks of a tile that has only the samples of the first pass what [`fill_block`](Self::fill_block)
+    /// does for one block, but faster: each row is a copy of the row that has the samples.
+    fn fill_blocks(&mut self, tile: PixelRect, step: u32) {
+        let of_sample = |block: usize| (step as usize / 2).min(block - 1);
+        for top in (tile.min.y..tile.max.y).step_by(step as usize) {
+            let corner = UVec2::new(tile.min.x, top);
+            let sampled = Plan::representative(self.plan.size(), corner, step).y;
+            let source = self.row(tile, sampled);
+            for block in self.pixels[source.clone()].chunks_mut(step as usize) {
+                block.fill(block[of_sample(block.len())]);
+            }
+            for y in top..(top + step).min(tile.max.y) {
+                let row = self.row(tile, y);
+                self.shown_step[row.clone()].fill(step as u8);
+                self.pixels.copy_within(source.clone(), row.start);
+            }
+            for block in self.shown_step[source].chunks_mut(step as usize) {
+                block[of_sample(block.len())] = 0;
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Tests of films.
 
 use super::*;
+use crate::plan::STEPS;
 
 fn sum_of(samples: &[Vec3]) -> SampleSum {
     let mut sum = SampleSum::default();
@@ -134,6 +135,31 @@ fn a_pixel_without_a_sample_shows_the_colour_of_its_block() {
                 let shown = if has_sample[i as usize] { p } else { middle };
                 let expected = Display::default().encode(shade(shown));
                 assert_eq!(film.pixels()[i as usize], expected, "{p} by {step}");
+            }
+        }
+    }
+}
+
+#[test]
+fn after_the_first_pass_each_pixel_shows_the_sample_of_its_block_at_any_size() {
+    let shade = |p: UVec2| Vec3::new(p.x as f32, 2.0 * p.y as f32, 1.0) / 200.0;
+    for (x, y) in [(1, 1), (47, 49), (50, 2), (97, 100)] {
+        let size = UVec2::new(x, y);
+        for step in STEPS {
+            let plan = Plan::new(size, step, 1);
+            let mut film = Film::new(plan.clone(), Vec3::ONE);
+            for tile in 0..plan.tile_count() {
+                let unit = WorkUnit { pass: 0, tile };
+                let sums = plan.pixels(unit).map(|p| sum_of(&[shade(p)])).collect();
+                film.add(&TileSamples { unit, sums });
+            }
+            for i in 0..size.element_product() as usize {
+                let p = UVec2::new(i as u32 % x, i as u32 / x);
+                let shown = Plan::representative(size, p, step);
+                let expected = Display::default().encode(shade(shown));
+                assert_eq!(film.pixels()[i], expected, "{p} of {size} by {step}");
+                let shown_step = if p == shown { 0 } else { step as u8 };
+                assert_eq!(film.shown_step[i], shown_step, "{p} of {size} by {step}");
             }
         }
     }

@@ -169,6 +169,18 @@ impl Renderer {
         messages.try_iter().find_map(newest)
     }
 
+    /// The next message of the newest job. Waits for it until `deadline`.
+    pub fn next_before(&self, deadline: Instant) -> Option<Message> {
+        let messages = self.messages.as_ref()?;
+        loop {
+            let left = deadline.saturating_duration_since(Instant::now());
+            let (generation, message) = messages.recv_timeout(left).ok()?;
+            if generation == self.generation {
+                return Some(message);
+            }
+        }
+    }
+
     /// The next message of the newest job. Blocks until it arrives; call it only while there is work left.
     pub fn wait_next(&self) -> Message {
         let messages = self.messages.iter().flatten();

@@ -119,17 +119,28 @@ impl App {
             canvas.part = self.shown.magnifier.part();
             self.rotate(ui);
             self.step_transition(ui.ctx());
+            self.request_picture(ui.ctx(), canvas.resolution);
             self.show_changes(ui.ctx());
             self.hover(&response, canvas);
             self.paint(ui, canvas, response.dragged());
             self.divider_ui(ui, canvas);
             self.gizmo_ui(ui, canvas);
-            let wanted = self.wanted(ui.ctx(), canvas.resolution);
-            let block = self.seen.settings.moving.block();
-            self.traced.tracer.set_first_step(block);
-            self.traced.tracer.request(wanted);
             self.request_other(ui.ctx());
         });
+    }
+
+    /// Requests the picture that the camera and the settings want. After an input it is shown in the same frame if its
+    /// first pass is quick; a camera that rotates by itself shows more frames if it doesn't wait.
+    fn request_picture(&mut self, ctx: &egui::Context, resolution: UVec2) {
+        let wanted = self.wanted(ctx, resolution);
+        let block = self.seen.settings.moving.block();
+        self.traced.tracer.set_first_step(block);
+        self.traced.tracer.request(wanted);
+        if !self.seen.is_rotating
+            && let Some(panic) = self.traced.tracer.await_first_pass(ctx).first()
+        {
+            self.error(panic);
+        }
     }
 
     /// Auto-rotates the camera about the mesh.

@@ -1,6 +1,7 @@
 //! Loading files, showing the result, reloading changed files, finding the files beside them, and saving scene files.
 
 use super::App;
+use crate::about::NAME;
 use crate::document::Document;
 use crate::folder::{self, Direction};
 use crate::log::Kind;
@@ -187,8 +188,7 @@ impl App {
         }
         // The next frame drops the old scene's picture without waiting for the first rays in the new scene.
         ctx.request_repaint();
-        let title = format!("{} – hitscope", self.open.document.name());
-        ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
+        self.show_title(ctx);
         let warnings = &self.open.document.loaded.report.warnings;
         if let (true, Some(path)) = (self.screenshot.is_some(), &self.open.document.path) {
             print_warnings(path, &self.open.document.loaded);
@@ -205,6 +205,15 @@ impl App {
         if self.open.document.ignores_offset {
             self.tell("Only the coordinates of triangle meshes can be moved by an offset");
         }
+    }
+
+    /// Shows the file's name in the window's title; the program's name alone if no file is open.
+    pub(super) fn show_title(&self, ctx: &egui::Context) {
+        let title = match self.open.document.path {
+            Some(_) => format!("{} – {NAME}", self.open.document.name()),
+            None => NAME.to_owned(),
+        };
+        ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
     }
 
     /// Adds the document's warnings to the log, except the first one, which is shown as a notice.

@@ -54,8 +54,7 @@ impl App {
         self.traced.development = Development::default();
         self.traced.tracer.show_again();
         self.forget_times();
-        let title = format!("{} – hitscope", self.open.document.name());
-        ctx.send_viewport_cmd(ViewportCommand::Title(title));
+        self.show_title(ctx);
         self.warn(&format!(
             "The graphics device was lost, so the window was reopened: {loss}"
         ));

@@ -16,7 +16,7 @@ impl App {
         let frame =
             egui::Frame::side_top_panel(ui.style()).inner_margin(egui::Margin::symmetric(6, 2));
         egui::Panel::bottom("status").frame(frame).show(ui, |ui| {
-            let text = RichText::new(parts.join("  ·  ")).monospace().size(11.0);
+            let text = RichText::new(parts.join(" · ")).monospace().size(11.0);
             let label = egui::Label::new(text).truncate();
             ui.add(label.show_tooltip_when_elided(false))
                 .on_hover_text(parts.join("\n"));

@@ -8,6 +8,7 @@ use crate::tracer::Request;
 use glam::{DVec3, UVec2, Vec2};
 use hitscope_core::counts::counted_as;
 use hitscope_core::integrator::Integrator;
+use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::sampler::Sampler;
 use hitscope_core::tone::Display;
 use hitscope_core::{Hit, Ray, Scene};
@@ -41,13 +42,30 @@ pub struct Rasterized {
     /// Compiled when the first request is drawn.
     rasterizer: Arc<OnceLock<Rasterizer>>,
     mesh: Option<Uploaded>,
-    running: Option<Task<Result<(Uploaded, RasterizedPicture), GpuError>>>,
+    running: Option<Task<Result<(Uploaded, RasterizedPicture), RasterizedError>>>,
+    /// Cancels what is running when the window closes or another side is compared.
+    progress: Progress,
     wanted: Option<Request>,
     /// The request that is being drawn, or was drawn last.
     begun: Option<Request>,
     picture: Option<Arc<RasterizedPicture>>,
     /// Whether a request couldn't be drawn. No further one is tried then.
     has_failed: bool,
+}
+
+/// Why there is no rasterized picture.
+#[derive(Debug, thiserror::Error)]
+enum RasterizedError {
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl Drop for Rasterized {
+    fn drop(&mut self) {
+        self.progress.cancel();
+    }
 }
 
 /// Whether a view can be rasterized: one that traces further rays from surfaces can't.
@@ -64,6 +82,7 @@ impl Rasterized {
             rasterizer: Arc::default(),
             mesh: None,
             running: None,
+            progress: Progress::default(),
             wanted: None,
             begun: None,
             picture: None,
@@ -124,6 +143,7 @@ impl Rasterized {
             .mesh
             .clone()
             .filter(|(scene, _)| scene.has_shapes_of(&request.context.scene));
+        let progress = self.progress.clone();
         let draw = move || {
             let rasterizer = shared.get_or_init(|| Rasterizer::new(&device, &queue));
             let scene = &request.context.scene;
@@ -132,7 +152,7 @@ impl Rasterized {
                 None => Arc::new(rasterizer.upload(scene)?),
             };
             let uploaded = (Arc::clone(scene), mesh);
-            let picture = in_own_pool(|| draw(rasterizer, &uploaded.1, request))?;
+            let picture = in_own_pool(|| draw(rasterizer, &uploaded.1, request, &progress))?;
             Ok((uploaded, picture))
         };
         self.running = Some(Task::spawn("rasterize", ctx, draw));
@@ -184,13 +204,16 @@ fn draw(
     rasterizer: &Rasterizer,
     mesh: &RasterMesh,
     request: Request,
-) -> Result<RasterizedPicture, GpuError> {
+    progress: &Progress,
+) -> Result<RasterizedPicture, RasterizedError> {
     let context = &request.context;
     let (scene, camera) = (&context.scene, &context.camera);
     let view = ViewUniform::new(camera, &scene.bounds()).clipped(scene.clip());
+    progress.check()?;
     let drawn = rasterizer.draw(mesh, &view)?;
     let size = camera.resolution();
     let shade = |(index, pixel): (usize, &RasterPixel)| {
+        progress.check()?;
         let at = UVec2::new(index as u32 % size.x, index as u32 / size.x);
         let ray = camera.ray(at, Vec2::splat(0.5));
         let mut sampler = Sampler::new(at, 0);
@@ -198,10 +221,11 @@ fn draw(
         let colour = request
             .integrator
             .radiance(context, &ray, hit, &mut sampler);
-        Display::default().encode(colour)
+        Ok(Display::default().encode(colour))
     };
+    let pixels: Result<_, Cancelled> = drawn.par_iter().enumerate().map(shade).collect();
     Ok(RasterizedPicture {
-        pixels: drawn.par_iter().enumerate().map(shade).collect(),
+        pixels: pixels?,
         triangles: drawn.iter().map(|pixel| pixel.triangle).collect(),
         request,
     })

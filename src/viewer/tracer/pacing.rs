@@ -2,20 +2,26 @@
 
 use super::Tracer;
 use glam::UVec2;
-use hitscope_core::plan::STEPS;
+use hitscope_core::plan::{Plan, STEPS};
 use std::ops::{Range, RangeInclusive};
 use std::time::{Duration, Instant};
 
-/// Target time of a frame while the camera moves. Less than 33 ms, as a late frame takes twice the interval.
-pub(super) const FRAME: Range<Duration> = Duration::from_millis(24)..Duration::from_millis(30);
+/// Target time of a frame while the camera moves. The slowest frames in a hundred take some 10 ms longer, and shall take
+/// at most 33 ms.
+pub(super) const FRAME: Range<Duration> = Duration::from_millis(20)..Duration::from_millis(25);
 /// Time of the first pass within a frame. Drawing the window takes almost no time with a GPU, and half of the frame
 /// without one.
 pub(super) const FIRST_PASS: RangeInclusive<Duration> =
-    Duration::from_millis(4)..=Duration::from_millis(20);
+    Duration::from_millis(4)..=Duration::from_millis(16);
 /// A picture that stays longer than this ends a movement.
 pub(super) const LOOK: Duration = Duration::from_millis(250);
 /// Rays per second per thread, until they are measured.
 const ASSUMED_SPEED: f64 = 1e6;
+
+/// The number of rays of a first pass with blocks of `step` pixels.
+fn rays_of_pass(size: UVec2, step: u32) -> f64 {
+    size.as_dvec2().element_product() / f64::from(step * step)
+}
 
 impl Tracer {
     /// Records the time since the previous picture.
@@ -62,10 +68,16 @@ impl Tracer {
         let speed = self.speeds[usize::from(is_lit)].rays_per_s();
         let affordable =
             self.of_all_threads(speed.unwrap_or(ASSUMED_SPEED)) * self.first_pass.as_secs_f64();
-        let pixels = f64::from(size.x) * f64::from(size.y);
-        let is_affordable = |step: &u32| pixels / f64::from(step * step) <= affordable;
+        let is_affordable = |step: &u32| rays_of_pass(size, *step) <= affordable;
         let coarsest = STEPS[STEPS.len() - 1];
         STEPS.into_iter().find(is_affordable).unwrap_or(coarsest)
+    }
+
+    /// The time that a plan's first pass will take; `None` while the speed isn't known.
+    pub(super) fn expected_time(&self, plan: &Plan, is_lit: bool) -> Option<Duration> {
+        let speed = self.speeds[usize::from(is_lit)].rays_per_s()?;
+        let rays = rays_of_pass(plan.size(), plan.first_step());
+        Duration::try_from_secs_f64(rays / self.of_all_threads(speed)).ok()
     }
 
     /// The speed of all threads together.

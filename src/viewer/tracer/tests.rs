@@ -85,6 +85,27 @@ fn slow_frames_shorten_the_first_pass_and_fast_frames_lengthen_it_within_bounds(
 }
 
 #[test]
+fn a_frame_waits_for_a_first_pass_only_if_it_is_missing_and_expected_to_be_quick() {
+    let mut tracer = tracer();
+    assert!(!tracer.is_first_pass_quick(), "nothing is requested");
+    tracer.set_first_step(Some(1));
+    tracer.request(request(&ball(), 0.0, 1));
+    assert!(!tracer.is_first_pass_quick(), "the speed isn't known");
+    let mut expect = |secs: f64| {
+        tracer.speeds[0] = Speed {
+            rays: f64::from(SIZE.element_product()),
+            busy_secs: secs,
+        };
+        tracer.is_first_pass_quick()
+    };
+    assert!(expect(0.009));
+    assert!(!expect(0.011));
+    collect_until(&mut tracer, |tracer| tracer.film.passes_done() > 0);
+    tracer.speeds[0].busy_secs = 1e-3;
+    assert!(!tracer.is_first_pass_quick(), "it is there");
+}
+
+#[test]
 fn the_first_pass_has_the_smallest_blocks_that_fit_its_time() {
     let mut tracer = tracer();
     let pixels = f64::from(SIZE.element_product());
