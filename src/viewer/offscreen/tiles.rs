@@ -14,6 +14,7 @@ use crate::overlay::traced::Shapes;
 use crate::overlay::{Contents, OverlayInput, Overlays};
 use glam::UVec2;
 use hitscope_core::plan::PixelRect;
+use hitscope_core::progress::Progress;
 use hitscope_core::{Camera, Scene};
 use std::ops::Range;
 use std::sync::Arc;
@@ -173,7 +174,10 @@ impl OverlayTiles {
             self.view.of_part(rect)
         };
         let traced = self.shapes.as_ref().map(|shapes| {
-            let pixels = shapes.trace(&self.scene, &self.camera, &self.view, rect);
+            let progress = Progress::default();
+            let pixels = shapes
+                .trace(&self.scene, &self.camera, &self.view, rect, &progress)
+                .expect("nobody else has the progress");
             TracedLayer::new(device, queue, view.size(), &pixels)
         });
         let drawing = Drawing {

@@ -17,6 +17,7 @@ use crate::task::TaskPanicked;
 use eframe::egui_wgpu::RenderState;
 use glam::UVec2;
 use hitscope_core::plan::PixelRect;
+use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::{Camera, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -30,6 +31,9 @@ pub enum OverlayError {
     /// A thread that gathers or draws lines panicked.
     #[error(transparent)]
     TaskPanicked(#[from] TaskPanicked),
+    /// The overlay was dropped while it was gathered.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 /// Whether the camera moves.
@@ -144,7 +148,8 @@ impl OverlayLayer {
             return Ok(None);
         }
         let shared = Arc::clone(&input.scene);
-        let upload = move |device: &_, queue: &_| DepthMesh::new(device, queue, &shared);
+        let upload =
+            move |device: &_, queue: &_, _: &_| Ok(DepthMesh::new(device, queue, &shared)?);
         let mesh = match self.mesh.get((), &self.overlay, ctx, upload)? {
             Readiness::Ready(mesh) => mesh,
             Readiness::Failed => return Ok(None),
@@ -217,8 +222,8 @@ impl OverlayLayer {
         ctx: &egui::Context,
     ) -> Result<Vec<DrawnLines>, OverlayError> {
         let (gather, shared) = (wanted.gather.clone(), Arc::clone(scene));
-        let upload = move |device: &wgpu::Device, queue: &wgpu::Queue| {
-            LineSet::new(device, queue, &gather.lines(&shared))
+        let upload = move |device: &wgpu::Device, queue: &wgpu::Queue, _: &Progress| {
+            Ok(LineSet::new(device, queue, &gather.lines(&shared))?)
         };
         let uploaded = self.lines.entry(wanted.slot).or_default();
         let key = wanted.gather.key().clone();
@@ -254,13 +259,13 @@ impl OverlayLayer {
             return Ok(None);
         }
         let (shapes, shared, camera) = (self.shapes.clone(), Arc::clone(scene), *camera);
-        let trace = move |device: &wgpu::Device, queue: &wgpu::Queue| {
+        let trace = move |device: &wgpu::Device, queue: &wgpu::Queue, progress: &Progress| {
             let whole = PixelRect {
                 min: UVec2::ZERO,
                 max: camera.resolution(),
             };
-            let pixels = shapes.trace(&shared, &camera, &view, whole);
-            TracedLayer::new(device, queue, view.size(), &pixels)
+            let pixels = shapes.trace(&shared, &camera, &view, whole, progress)?;
+            Ok(TracedLayer::new(device, queue, view.size(), &pixels)?)
         };
         self.traced.get(view, &self.overlay, ctx, trace).map(Some)
     }

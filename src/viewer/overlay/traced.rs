@@ -5,6 +5,7 @@ use crate::gpu::view::ViewUniform;
 use glam::{DVec3, UVec2, Vec2};
 use hitscope_core::kernel::{KernelTable as _, Tier};
 use hitscope_core::plan::PixelRect;
+use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::shape::Triangle;
 use hitscope_core::{Camera, Intersector, Ray, Scene};
 use rayon::prelude::*;
@@ -51,13 +52,17 @@ impl VisibleSurface {
 impl Shapes {
     /// Traces one ray through the centre of each pixel of a part of the picture, row by row from the top. Takes as long
     /// as a picture of one sample per pixel. `view` is that of the whole picture.
+    ///
+    /// # Errors
+    /// [`Cancelled`], before the next row is traced.
     pub fn trace(
         &self,
         scene: &Scene,
         camera: &Camera,
         view: &ViewUniform,
         part: PixelRect,
-    ) -> Vec<TracedPixel> {
+        progress: &Progress,
+    ) -> Result<Vec<TracedPixel>, Cancelled> {
         let whole = self.0.get_or_init(|| {
             let shapes = scene.without_triangles().with_clip(None);
             // The lines' width exceeds the error of t, and exact arithmetic would take several times as long.
@@ -70,9 +75,12 @@ impl Shapes {
         let size = (part.max + margin).min(camera.resolution()) - min;
         let mut visible = vec![VisibleSurface::NONE; (size.x * size.y) as usize];
         let rows = visible.par_chunks_mut(size.x as usize).zip(0..size.y);
-        rows.for_each(|(row, y)| {
+        rows.map(|(row, y)| {
+            progress.check()?;
             trace_row(&*intersector, camera, view, min + UVec2::new(0, y), row);
-        });
+            Ok(())
+        })
+        .collect::<Result<(), Cancelled>>()?;
         let hides = farthest_around(&visible, size);
         let width = size.x as usize;
         let [rows, columns] = [1, 0].map(|axis| {
@@ -85,7 +93,7 @@ impl Shapes {
             hides: hides[index],
             outline: outline(&visible, size, index),
         };
-        indices.map(pixel).collect()
+        Ok(indices.map(pixel).collect())
     }
 }
 

@@ -1,16 +1,24 @@
 //! Meshes and lines that are gathered and uploaded in the background.
 
 use super::OverlayError;
-use crate::gpu::GpuError;
 use crate::gpu::drawing::Overlay;
 use crate::task::{KeyedTask, Task};
+use hitscope_core::progress::Progress;
 use std::sync::Arc;
 
 /// A GPU resource of one of several kinds, created in the background on first use.
 pub struct Uploaded<K, T> {
     /// The kind and its resource, or `None` if creating it failed, which isn't retried.
     made: Option<(K, Option<Arc<T>>)>,
-    making: KeyedTask<K, Result<T, GpuError>>,
+    making: KeyedTask<K, Result<T, OverlayError>>,
+    progress: Progress,
+}
+
+impl<K, T> Drop for Uploaded<K, T> {
+    /// Cancels what is in progress.
+    fn drop(&mut self) {
+        self.progress.cancel();
+    }
 }
 
 impl<K, T> Default for Uploaded<K, T> {
@@ -18,6 +26,7 @@ impl<K, T> Default for Uploaded<K, T> {
         Self {
             made: None,
             making: KeyedTask::default(),
+            progress: Progress::default(),
         }
     }
 }
@@ -42,18 +51,20 @@ impl<K: Clone + PartialEq + Send + 'static, T: Send + 'static> Uploaded<K, T> {
         kind: K,
         overlay: &Arc<Overlay>,
         ctx: &egui::Context,
-        make: impl FnOnce(&wgpu::Device, &wgpu::Queue) -> Result<T, GpuError> + Send + 'static,
+        make: impl FnOnce(&wgpu::Device, &wgpu::Queue, &Progress) -> Result<T, OverlayError>
+        + Send
+        + 'static,
     ) -> Result<Readiness<T>, OverlayError> {
         match &self.made {
             Some((made, Some(it))) if *made == kind => return Ok(Readiness::Ready(Arc::clone(it))),
             Some((made, None)) if *made == kind => return Ok(Readiness::Failed),
             _ => {}
         }
-        let overlay = Arc::clone(overlay);
+        let (overlay, progress) = (Arc::clone(overlay), self.progress.clone());
         let start = || {
             Task::spawn("overlay upload", ctx, move || {
                 let (device, queue) = overlay.gpu();
-                make(device, queue)
+                make(device, queue, &progress)
             })
         };
         let made: Result<T, OverlayError> = match self.making.get(kind.clone(), start) {
@@ -61,7 +72,7 @@ impl<K: Clone + PartialEq + Send + 'static, T: Send + 'static> Uploaded<K, T> {
                 let last = self.made.as_ref().and_then(|(_, last)| last.clone());
                 return Ok(Readiness::Pending(last));
             }
-            Ok(Some(made)) => made.map_err(OverlayError::from),
+            Ok(Some(made)) => made,
             Err(panicked) => Err(panicked.into()),
         };
         let made = made.map(Arc::new);
