@@ -1,5 +1,6 @@
 //! Background tasks: one thread, one result.
 
+use hitscope_core::progress::Progress;
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 use std::time::{Duration, Instant};
 
@@ -7,6 +8,15 @@ use std::time::{Duration, Instant};
 pub struct Task<T> {
     receiver: Receiver<T>,
     start: Instant,
+    _cancelled_on_drop: CancelledOnDrop,
+}
+
+struct CancelledOnDrop(Progress);
+
+impl Drop for CancelledOnDrop {
+    fn drop(&mut self) {
+        self.0.cancel();
+    }
 }
 
 /// The error of a thread that ended without a result: it panicked.
@@ -23,6 +33,18 @@ impl<T: Send + 'static> Task<T> {
         ctx: &egui::Context,
         work: impl FnOnce() -> T + Send + 'static,
     ) -> Self {
+        Self::cancellable(name, ctx, |_| work())
+    }
+
+    /// Like [`spawn`](Self::spawn), for work whose progress is cancelled when the task is dropped.
+    pub fn cancellable(
+        name: &str,
+        ctx: &egui::Context,
+        work: impl FnOnce(&Progress) -> T + Send + 'static,
+    ) -> Self {
+        let progress = Progress::default();
+        let cancelled_on_drop = CancelledOnDrop(progress.clone());
+        let work = move || work(&progress);
         let (sender, receiver) = sync_channel(1);
         let repaint = RepaintOnDrop(ctx.clone());
         #[cfg(test)]
@@ -36,7 +58,11 @@ impl<T: Send + 'static> Task<T> {
         // Without a thread the sender is dropped, which `poll` reports.
         _ = std::thread::Builder::new().name(name.to_owned()).spawn(run);
         let start = Instant::now();
-        Self { receiver, start }
+        Self {
+            receiver,
+            start,
+            _cancelled_on_drop: cancelled_on_drop,
+        }
     }
 
     /// The time since the start.
@@ -302,6 +328,18 @@ mod tests {
             std::thread::sleep(Duration::from_millis(1));
         }
         assert!(matches!(end(&Task::spawn("bad", &ctx, || 3)), Ok(3)));
+    }
+
+    #[test]
+    fn a_task_is_cancelled_when_it_is_dropped_and_not_before() {
+        let ctx = egui::Context::default();
+        let (sender, receiver) = sync_channel(1);
+        let share = move |progress: &Progress| sender.send(progress.clone());
+        let task = Task::cancellable("shared", &ctx, share);
+        let progress = receiver.recv().expect("sent");
+        assert!(progress.check().is_ok());
+        drop(task);
+        assert!(progress.check().is_err());
     }
 
     #[test]

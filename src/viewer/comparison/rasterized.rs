@@ -43,8 +43,6 @@ pub struct Rasterized {
     rasterizer: Arc<OnceLock<Rasterizer>>,
     mesh: Option<Uploaded>,
     running: Option<Task<Result<(Uploaded, RasterizedPicture), RasterizedError>>>,
-    /// Cancels what is running when the window closes or another side is compared.
-    progress: Progress,
     wanted: Option<Request>,
     /// The request that is being drawn, or was drawn last.
     begun: Option<Request>,
@@ -62,12 +60,6 @@ enum RasterizedError {
     Cancelled(#[from] Cancelled),
 }
 
-impl Drop for Rasterized {
-    fn drop(&mut self) {
-        self.progress.cancel();
-    }
-}
-
 /// Whether a view can be rasterized: one that traces further rays from surfaces can't.
 fn can_rasterize(view: &Integrator) -> bool {
     !view.needs.lights
@@ -82,7 +74,6 @@ impl Rasterized {
             rasterizer: Arc::default(),
             mesh: None,
             running: None,
-            progress: Progress::default(),
             wanted: None,
             begun: None,
             picture: None,
@@ -143,8 +134,7 @@ impl Rasterized {
             .mesh
             .clone()
             .filter(|(scene, _)| scene.has_shapes_of(&request.context.scene));
-        let progress = self.progress.clone();
-        let draw = move || {
+        let draw = move |progress: &Progress| {
             let rasterizer = shared.get_or_init(|| Rasterizer::new(&device, &queue));
             let scene = &request.context.scene;
             let mesh = match known {
@@ -152,10 +142,10 @@ impl Rasterized {
                 None => Arc::new(rasterizer.upload(scene)?),
             };
             let uploaded = (Arc::clone(scene), mesh);
-            let picture = in_own_pool(|| draw(rasterizer, &uploaded.1, request, &progress))?;
+            let picture = in_own_pool(|| draw(rasterizer, &uploaded.1, request, progress))?;
             Ok((uploaded, picture))
         };
-        self.running = Some(Task::spawn("rasterize", ctx, draw));
+        self.running = Some(Task::cancellable("rasterize", ctx, draw));
     }
 
     /// Collects a finished picture. Returns whether there is a new one.

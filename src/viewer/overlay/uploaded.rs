@@ -11,14 +11,6 @@ pub struct Uploaded<K, T> {
     /// The kind and its resource, or `None` if creating it failed, which isn't retried.
     made: Option<(K, Option<Arc<T>>)>,
     making: KeyedTask<K, Result<T, OverlayError>>,
-    progress: Progress,
-}
-
-impl<K, T> Drop for Uploaded<K, T> {
-    /// Cancels what is in progress.
-    fn drop(&mut self) {
-        self.progress.cancel();
-    }
 }
 
 impl<K, T> Default for Uploaded<K, T> {
@@ -26,7 +18,6 @@ impl<K, T> Default for Uploaded<K, T> {
         Self {
             made: None,
             making: KeyedTask::default(),
-            progress: Progress::default(),
         }
     }
 }
@@ -60,11 +51,11 @@ impl<K: Clone + PartialEq + Send + 'static, T: Send + 'static> Uploaded<K, T> {
             Some((made, None)) if *made == kind => return Ok(Readiness::Failed),
             _ => {}
         }
-        let (overlay, progress) = (Arc::clone(overlay), self.progress.clone());
+        let overlay = Arc::clone(overlay);
         let start = || {
-            Task::spawn("overlay upload", ctx, move || {
+            Task::cancellable("overlay upload", ctx, move |progress| {
                 let (device, queue) = overlay.gpu();
-                make(device, queue, &progress)
+                make(device, queue, progress)
             })
         };
         let made: Result<T, OverlayError> = match self.making.get(kind.clone(), start) {
