@@ -306,7 +306,7 @@ fn framing_includes_lines_and_points_and_the_status_line_counts_one_triangle() {
         }
         press(&mut window, Key::Home);
     }
-    window.get_by_label_contains("1 triangle  ·");
+    window.get_by_label_contains("1 triangle ·");
 }
 
 #[test]
