@@ -73,8 +73,9 @@ pub fn memory_below(limit: f64) -> f64 {
     let start = Instant::now();
     loop {
         if let Some(gpu) = crate::harness::gpu() {
-            // Frees what was dropped.
-            _ = gpu.device.poll(wgpu::PollType::Poll);
+            // Frees what was dropped; lavapipe frees pipelines at the next submission.
+            gpu.queue.submit([]);
+            _ = gpu.device.poll(wgpu::PollType::wait_indefinitely());
         }
         let now = memory_mb().unwrap_or(0.0);
         if now <= limit || start.elapsed() > PATIENCE {
