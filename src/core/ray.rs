@@ -51,7 +51,6 @@ impl Ray {
     ///
     /// # Errors
     /// See [`RayError`].
-    #[inline]
     pub fn new(origin: Vec3, dir: Vec3) -> Result<Self, RayError> {
         Self::with_interval(origin, dir, 0.0, f32::INFINITY)
     }
@@ -73,25 +72,60 @@ impl Ray {
         t_min: f32,
         t_max: f32,
     ) -> Result<Self, RayError> {
-        // Comparisons with NaN are false.
-        let size = dir.abs();
-        let is_usual =
-            size.cmplt(Vec3::splat(USUAL.end)).all() && size.max_element() >= USUAL.start;
-        let (dir, t_min, t_max, scale) = if is_usual && origin.is_finite() && t_min < t_max {
-            (dir, t_min, t_max, 0)
-        } else {
-            // Taken apart, so that the numbers of a usual ray stay in registers.
-            let checked = Stretch::checked(origin, dir, t_min, t_max)?;
-            (checked.dir, checked.t_min, checked.t_max, checked.scale)
-        };
-        Ok(Self {
+        let ray = Self {
             origin,
             dir,
             t_min,
             t_max,
-            scale,
+            scale: 0,
             exclude: None,
-        })
+        };
+        // Comparisons with NaN are false.
+        let size = dir.abs();
+        let is_usual =
+            size.cmplt(Vec3::splat(USUAL.end)).all() && size.max_element() >= USUAL.start;
+        if is_usual && origin.is_finite() && t_min < t_max {
+            return Ok(ray);
+        }
+        ray.checked()
+    }
+
+    /// Checks a ray, and rescales a direction of unusual length.
+    #[cold]
+    fn checked(self) -> Result<Self, RayError> {
+        if !self.origin.is_finite() {
+            return Err(RayError::OriginNotFinite);
+        } else if !self.dir.is_finite() {
+            return Err(RayError::DirectionNotFinite);
+        } else if self.dir == Vec3::ZERO {
+            return Err(RayError::DirectionZero);
+        }
+        let ray = if USUAL.contains(&self.dir.abs().max_element()) {
+            self
+        } else {
+            self.rescaled()
+        };
+        if ray.t_min < ray.t_max {
+            Ok(ray)
+        } else {
+            Err(RayError::IntervalEmpty)
+        }
+    }
+
+    /// The ray with a direction of usual length, or unchanged if scaling would round a component.
+    fn rescaled(self) -> Self {
+        let exponent = exponent_of(self.dir);
+        let usual = Vec3::from_array(self.dir.to_array().map(|x| scaled(x, -exponent)));
+        if usual.as_dvec3() * 2f64.powi(exponent) != self.dir.as_dvec3() {
+            return self;
+        }
+        Self {
+            dir: usual,
+            t_min: scaled(self.t_min.max(-f32::MAX), exponent),
+            t_max: scaled(self.t_max.min(f32::MAX), exponent),
+            scale: -exponent,
+            ..self
+        }
     }
 
     /// The part of the interval in which t is a finite f32: hits at or beyond the largest finite f32, ahead
@@ -107,62 +141,8 @@ impl Ray {
     }
 
     /// Converts a distance to units of the length of the direction that the ray was created with.
-    #[inline]
     pub fn t_as_given(&self, t: impl Into<f64>) -> f64 {
         t.into() * 2f64.powi(self.scale)
-    }
-}
-
-/// The part of a line that a ray covers.
-struct Stretch {
-    dir: Vec3,
-    t_min: f32,
-    t_max: f32,
-    scale: i32,
-}
-
-impl Stretch {
-    /// Checks a ray, and rescales a direction of unusual length.
-    #[cold]
-    fn checked(origin: Vec3, dir: Vec3, t_min: f32, t_max: f32) -> Result<Self, RayError> {
-        if !origin.is_finite() {
-            return Err(RayError::OriginNotFinite);
-        } else if !dir.is_finite() {
-            return Err(RayError::DirectionNotFinite);
-        } else if dir == Vec3::ZERO {
-            return Err(RayError::DirectionZero);
-        }
-        let given = Self {
-            dir,
-            t_min,
-            t_max,
-            scale: 0,
-        };
-        let stretch = if USUAL.contains(&dir.abs().max_element()) {
-            given
-        } else {
-            given.rescaled()
-        };
-        if stretch.t_min < stretch.t_max {
-            Ok(stretch)
-        } else {
-            Err(RayError::IntervalEmpty)
-        }
-    }
-
-    /// The same with a direction of usual length, or unchanged if scaling would round a component.
-    fn rescaled(self) -> Self {
-        let exponent = exponent_of(self.dir);
-        let usual = Vec3::from_array(self.dir.to_array().map(|x| scaled(x, -exponent)));
-        if usual.as_dvec3() * 2f64.powi(exponent) != self.dir.as_dvec3() {
-            return self;
-        }
-        Self {
-            dir: usual,
-            t_min: scaled(self.t_min.max(-f32::MAX), exponent),
-            t_max: scaled(self.t_max.min(f32::MAX), exponent),
-            scale: -exponent,
-        }
     }
 }
 

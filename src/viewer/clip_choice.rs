@@ -43,6 +43,19 @@ impl Extent {
     pub fn centre(&self) -> DVec3 {
         self.min.midpoint(self.max)
     }
+
+    /// A box around this one that clips nothing inside: the distance of a surface on the very face of a clip is rounded,
+    /// so half of its pixels would be clipped.
+    #[must_use]
+    pub fn with_margin(&self) -> Self {
+        /// Part of the longest side. It far exceeds the rounding, and can't be seen.
+        const MARGIN: f64 = 1e-3;
+        let margin = MARGIN * (self.max - self.min).max_element();
+        Self {
+            min: self.min - margin,
+            max: self.max + margin,
+        }
+    }
 }
 
 impl ClipChoice {
@@ -69,7 +82,7 @@ impl ClipChoice {
         if self.normal == DVec3::ZERO {
             self.set_plane(DVec3::X, scene.centre());
         }
-        self.cell.get_or_insert(*scene);
+        self.cell.get_or_insert(scene.with_margin());
     }
 
     /// Clips by a plane through a point.
@@ -123,6 +136,8 @@ mod tests {
         choice.toggle(ClipShape::Box, &SCENE);
         let cell = choice.clip().expect("a clip").expect("a box");
         assert!(cell.keeps(SCENE.centre()) && !cell.keeps(DVec3::ZERO));
+        let beside = DVec3::splat(1e-6);
+        assert!(cell.keeps(SCENE.min - beside) && cell.keeps(SCENE.max + beside));
         choice.toggle(ClipShape::Box, &SCENE);
         assert_eq!(choice.clip(), Ok(None));
     }

@@ -52,7 +52,7 @@ impl App {
 
     /// Makes the box that clips the scene that of the scene.
     pub(crate) fn fit_clip_box(&mut self) {
-        self.seen.settings.clip.cell = Some(self.extent());
+        self.seen.settings.clip.cell = Some(self.extent().with_margin());
     }
 
     /// Why the clip's plane can't be changed; `None` if it can.

@@ -2,6 +2,7 @@
 
 use super::canvas::Canvas;
 use crate::overlay::{Label, Place};
+use crate::panels::labels::{around, place};
 use egui::{Color32, FontId, Pos2, Rect, Sense, Stroke, Vec2};
 use hitscope_core::Camera;
 
@@ -9,8 +10,6 @@ use hitscope_core::Camera;
 const FONT_SIZE: f32 = 12.0;
 /// Space around a text, and between texts, in points.
 const GAP: f32 = 4.0;
-/// Distance of a text from its point in points.
-const ASIDE: f32 = 6.0;
 /// Distance from the edges of the picture in points.
 const MARGIN: f32 = 10.0;
 
@@ -18,16 +17,17 @@ const MARGIN: f32 = 10.0;
 pub(super) fn labels_ui(ui: &egui::Ui, canvas: Canvas, camera: &Camera, labels: &[Label]) {
     // From below, so that later labels are below earlier ones.
     let mut corner = canvas.rect.left_bottom() + Vec2::new(MARGIN, -MARGIN);
+    let (mut obstacles, mut texts, mut points) = (Vec::new(), Vec::new(), Vec::new());
     for (index, label) in labels.iter().enumerate().rev() {
         let text = Text::new(ui, canvas, index, &label.text);
         match label.place {
             Place::Point(point) => {
-                if let Some(pixel) = camera.pixel_of(point) {
-                    let at = canvas.pos_of(pixel, camera);
-                    let aside = Vec2::new(ASIDE, -ASIDE - text.size().y);
-                    if canvas.rect.contains(at) {
-                        text.draw(at + aside);
-                    }
+                let at = camera
+                    .pixel_of(point)
+                    .map(|pixel| canvas.pos_of(pixel, camera));
+                if let Some(at) = at.filter(|at| canvas.rect.contains(*at)) {
+                    points.push(at);
+                    texts.push(text);
                 }
             }
             Place::Corner { bar_px } => {
@@ -35,7 +35,7 @@ pub(super) fn labels_ui(ui: &egui::Ui, canvas: Canvas, camera: &Camera, labels: 
                 let height = text.size().y;
                 corner.y -= height;
                 let indent = width.map_or(0.0, |width| width + 2.0 * GAP);
-                text.draw(corner + Vec2::new(indent, 0.0));
+                obstacles.extend(text.draw(corner + Vec2::new(indent, 0.0)));
                 if let Some(width) = width {
                     let middle = corner + Vec2::new(0.0, 0.5 * height);
                     bar(&text.painter, middle, width);
@@ -43,6 +43,12 @@ pub(super) fn labels_ui(ui: &egui::Ui, canvas: Canvas, camera: &Camera, labels: 
                 corner.y -= GAP;
             }
         }
+    }
+    obstacles.extend(points.iter().map(around));
+    let sizes: Vec<_> = texts.iter().map(Text::size).collect();
+    let places = place(&points, &sizes, &obstacles, canvas.rect);
+    for (text, plate) in texts.iter().zip(places) {
+        text.draw(plate.min);
     }
 }
 
@@ -72,13 +78,13 @@ impl<'a> Text<'a> {
         self.galley.size() + Vec2::splat(2.0 * GAP)
     }
 
-    /// Draws the text on a plate with its upper left corner here, or at the nearest place inside the picture. A picture that
-    /// is too small has no text.
-    fn draw(&self, corner: Pos2) {
+    /// Draws the text on a plate with its upper left corner here, or at the nearest place inside the picture. Returns the
+    /// plate; a picture that is too small has no text.
+    fn draw(&self, corner: Pos2) -> Option<Rect> {
         let picture = self.painter.clip_rect();
         let room = picture.size() - self.size();
         if room.min_elem() < 0.0 {
-            return;
+            return None;
         }
         let corner = corner.clamp(picture.min, picture.min + room);
         let plate = Rect::from_min_size(corner, self.size());
@@ -93,6 +99,7 @@ impl<'a> Text<'a> {
         let response = self.ui.interact(plate, id, Sense::hover());
         response
             .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, self.galley.text()));
+        Some(plate)
     }
 }
 

@@ -1,13 +1,14 @@
-//! Placement of labels beside the points of a plot, without overlaps.
+//! Placement of labels beside the points of a plot or a picture, without overlaps.
 
 use egui::{Pos2, Rect, Vec2};
 
-/// Places each label as close to its point as possible without covering a point or an earlier label.
-pub fn place(points: &[Pos2], sizes: &[Vec2], all_points: &[Pos2], within: Rect) -> Vec<Rect> {
-    /// Half the size of a point.
-    const RADIUS: f32 = 5.0;
-    let around = |point: &Pos2| Rect::from_center_size(*point, Vec2::splat(2.0 * RADIUS));
-    let obstacles: Vec<Rect> = all_points.iter().map(around).collect();
+/// The space around a point that labels leave free.
+pub fn around(point: &Pos2) -> Rect {
+    Rect::from_center_size(*point, Vec2::splat(10.0))
+}
+
+/// Places each label as close to its point as possible without covering an obstacle or an earlier label.
+pub fn place(points: &[Pos2], sizes: &[Vec2], obstacles: &[Rect], within: Rect) -> Vec<Rect> {
     let mut placed: Vec<Rect> = Vec::new();
     for (&point, &size) in points.iter().zip(sizes) {
         let is_free = |rect: &Rect| {
@@ -77,7 +78,7 @@ mod tests {
             ];
             let sizes = sizes.map(|[x, y]| Vec2::new(x, y));
             let others = [at, at + Vec2::new(-30.0, 4.0)];
-            let placed = place(&points, &sizes, &others, WITHIN);
+            let placed = place(&points, &sizes, &others.each_ref().map(around), WITHIN);
             assert_eq!(placed.len(), points.len());
             for (i, a) in placed.iter().enumerate() {
                 assert!(WITHIN.contains_rect(*a), "{a:?}");

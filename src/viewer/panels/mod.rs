@@ -6,7 +6,7 @@ pub mod compare;
 mod eye;
 mod flaws;
 pub mod inspect;
-mod labels;
+pub mod labels;
 pub mod light;
 pub mod mesh;
 mod overlay;

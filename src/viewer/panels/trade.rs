@@ -236,7 +236,8 @@ fn draw_labels(
         .collect();
     let points: Vec<Pos2> = labelled.iter().map(|(_, at)| *at).collect();
     let sizes: Vec<egui::Vec2> = galleys.iter().map(|galley| galley.size()).collect();
-    let places = labels::place(&points, &sizes, all_points, painter.clip_rect());
+    let obstacles: Vec<_> = all_points.iter().map(labels::around).collect();
+    let places = labels::place(&points, &sizes, &obstacles, painter.clip_rect());
     for (galley, place) in galleys.into_iter().zip(places) {
         painter.galley(place.min, galley, Color32::PLACEHOLDER);
     }
