@@ -1,6 +1,6 @@
 //! Lookup of the picked face in its file, in the background.
 
-use crate::task::{Task, TaskPanicked};
+use crate::task::Task;
 use hitscope_core::obj::{FaceCorner, FaceSource, face_source};
 use hitscope_core::progress::Progress;
 use hitscope_core::{Scene, TriangleMesh};
@@ -95,43 +95,18 @@ pub(crate) fn open_again(path: Option<&Path>) -> io::Result<Box<dyn Read>> {
     Ok(Box::new(File::open(path)?))
 }
 
-/// A lookup in progress, which dropping cancels.
-pub struct FaceLookup {
-    task: Task<FaceInFile>,
-    progress: Progress,
-}
-
-impl FaceLookup {
-    /// Starts to look up the face of a triangle; the face begins at `line`.
-    pub fn start(
-        path: Option<PathBuf>,
-        scene: &Arc<Scene>,
-        triangle: u32,
-        line: usize,
-        ctx: &egui::Context,
-    ) -> Self {
-        let progress = Progress::default();
-        let (scene, shared) = (Arc::clone(scene), progress.clone());
-        let read = move || FaceInFile::read(path.as_deref(), scene.mesh(), triangle, line, &shared);
-        Self {
-            task: Task::spawn("face", ctx, read),
-            progress,
-        }
-    }
-
-    /// The face, once it has been read.
-    ///
-    /// # Errors
-    /// [`TaskPanicked`] if reading it failed.
-    pub fn poll(&self) -> Result<Option<FaceInFile>, TaskPanicked> {
-        self.task.poll()
-    }
-}
-
-impl Drop for FaceLookup {
-    fn drop(&mut self) {
-        self.progress.cancel();
-    }
+/// Starts to look up the face of a triangle; the face begins at `line`.
+pub fn look_up_face(
+    path: Option<PathBuf>,
+    scene: &Arc<Scene>,
+    triangle: u32,
+    line: usize,
+    ctx: &egui::Context,
+) -> Task<FaceInFile> {
+    let scene = Arc::clone(scene);
+    Task::cancellable("face", ctx, move |progress| {
+        FaceInFile::read(path.as_deref(), scene.mesh(), triangle, line, progress)
+    })
 }
 
 #[cfg(test)]

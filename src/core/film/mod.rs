@@ -193,21 +193,24 @@ impl Film {
     /// Does for all blocks of a tile that has only the samples of the first pass what [`fill_block`](Self::fill_block)
     /// does for one block, but faster: each row is a copy of the row that has the samples.
     fn fill_blocks(&mut self, tile: PixelRect, step: u32) {
-        let of_sample = |block: usize| (step as usize / 2).min(block - 1);
-        for top in (tile.min.y..tile.max.y).step_by(step as usize) {
-            let corner = UVec2::new(tile.min.x, top);
-            let sampled = Plan::representative(self.plan.size(), corner, step).y;
-            let source = self.row(tile, sampled);
-            for block in self.pixels[source.clone()].chunks_mut(step as usize) {
-                block.fill(block[of_sample(block.len())]);
+        let size = self.plan.size();
+        let starts = |from: u32, to: u32| (from..to).step_by(step as usize);
+        for top in starts(tile.min.y, tile.max.y) {
+            let sampled = |left| Plan::representative(size, UVec2::new(left, top), step);
+            let in_block = |left| (sampled(left).x - left) as usize;
+            let source = self.row(tile, sampled(tile.min.x).y);
+            let blocks = self.pixels[source.clone()].chunks_mut(step as usize);
+            for (block, left) in blocks.zip(starts(tile.min.x, tile.max.x)) {
+                block.fill(block[in_block(left)]);
             }
             for y in top..(top + step).min(tile.max.y) {
                 let row = self.row(tile, y);
                 self.shown_step[row.clone()].fill(step as u8);
                 self.pixels.copy_within(source.clone(), row.start);
             }
-            for block in self.shown_step[source].chunks_mut(step as usize) {
-                block[of_sample(block.len())] = 0;
+            let blocks = self.shown_step[source].chunks_mut(step as usize);
+            for (block, left) in blocks.zip(starts(tile.min.x, tile.max.x)) {
+                block[in_block(left)] = 0;
             }
         }
     }

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     /// The file can't be opened or read.
-    #[error("{}: {source}", shown(path))]
+    #[error("{}: {}", shown(path), reason(source))]
     Unreadable {
         /// The file.
         path: PathBuf,
@@ -53,6 +53,15 @@ pub enum LoadError {
 /// A path for messages. Replaces control characters, which could move a terminal's cursor.
 pub fn shown(path: &Path) -> String {
     printable(&path.to_string_lossy())
+}
+
+/// The message for a file that can't be read.
+pub(crate) fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "not found".to_owned(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        _ => error.to_string(),
+    }
 }
 
 /// Replaces control characters and bidirectional formatting characters in a text.

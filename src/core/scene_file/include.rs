@@ -6,10 +6,9 @@ use super::outline::Outline;
 use super::problem::{Problem, quoted};
 use super::reader::{Reader, Visit};
 use super::text::{Lines, decoded, decoded_bytes};
-use crate::obj::shown;
+use crate::obj::{reason, shown};
 use roxmltree::{Document, ParsingOptions};
 use std::borrow::Cow;
-use std::io;
 use std::path::{Component, Path, PathBuf};
 
 /// As in Mitsuba.
@@ -49,10 +48,7 @@ impl<'r> Reader<'r> {
         let limit = self.memory.left();
         let read = (self.read_file)(&path, limit);
         let bytes = read.map_err(|error| {
-            let reason = match error.kind() {
-                io::ErrorKind::NotFound => "not found".to_owned(),
-                _ => error.to_string(),
-            };
+            let reason = reason(&error);
             element.problem(format!("included file {}: {reason}", quoted(&name)))
         })?;
         self.read_scene(&bytes, &path, visit)

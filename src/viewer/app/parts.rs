@@ -25,7 +25,7 @@ use crate::about_sheet::AboutSheet;
 use crate::command::palette::Palette;
 use crate::comparison::{Comparison, Side};
 use crate::document::Document;
-use crate::face_lookup::FaceLookup;
+use crate::face_lookup::FaceInFile;
 use crate::first_picture::FirstPicture;
 use crate::flaw_place::FlawPlace;
 use crate::gpu::picture::Picture;
@@ -150,7 +150,7 @@ pub(crate) struct Picked {
     pub inspecting: Inspecting,
     pub path: PickedPath,
     /// The lookup of the pick's face in the file, while it runs.
-    pub face_lookup: Option<FaceLookup>,
+    pub face_lookup: Option<Task<FaceInFile>>,
     /// The flaw that is shown; all of its kind are marked.
     pub flaw: Option<FlawPlace>,
     /// The search for the flaw that will be shown.

@@ -3,7 +3,7 @@
 use super::App;
 use crate::comparison::Side;
 use crate::document::Document;
-use crate::face_lookup::{FaceInFile, FaceLookup};
+use crate::face_lookup::{FaceInFile, look_up_face};
 use crate::panels::{self, inspect::PickView};
 use crate::tab::Tab;
 use crate::task::Task;
@@ -316,12 +316,12 @@ impl App {
         self.picked.face_lookup = triangle.filter(|_| is_mesh).map(|triangle| {
             let line = triangle.line.unwrap_or(0);
             let scene = &document.loaded.scene;
-            FaceLookup::start(document.path.clone(), scene, triangle.index, line, ctx)
+            look_up_face(document.path.clone(), scene, triangle.index, line, ctx)
         });
     }
 
     fn poll_face_lookup(&mut self) {
-        let face = match self.picked.face_lookup.as_ref().map(FaceLookup::poll) {
+        let face = match self.picked.face_lookup.as_ref().map(Task::poll) {
             None | Some(Ok(None)) => return,
             Some(Ok(Some(face))) => face,
             Some(Err(panicked)) => FaceInFile::Unknown(panicked.to_string()),

@@ -22,6 +22,8 @@ impl App {
         let (narrowest, widest) = (*PANEL_WIDTHS.start(), *PANEL_WIDTHS.end());
         // In a narrow window, the panel leaves some room for the picture.
         let limit = (ui.available_width() - NARROWEST_PICTURE).clamp(MIN_PANEL_WIDTH, widest);
+        // Unless the user makes it wider, it leaves half of the window.
+        let usual = self.preferences.panel_width.min(0.5 * ui.available_width());
         if self.shown.panel_limit != limit {
             // egui would keep the width of the narrowest window.
             self.shown.panel_limit = limit;
@@ -29,7 +31,7 @@ impl App {
             ui.data_mut(|data| data.remove::<PanelState>(id));
         }
         let shown = egui::Panel::right(PANEL)
-            .default_size(self.preferences.panel_width)
+            .default_size(usual)
             .size_range(narrowest.min(limit)..=limit)
             .show_collapsible(ui, &mut is_expanded, |ui| {
                 tabs_ui(ui, commands);
@@ -43,7 +45,7 @@ impl App {
             // The width changes from frame to frame while the panel slides in or out.
             let width = shown.response.rect.width();
             let last = std::mem::replace(&mut self.shown.panel_width, width);
-            if last == width && width < limit && PANEL_WIDTHS.contains(&width) {
+            if last == width && width != usual && width < limit && PANEL_WIDTHS.contains(&width) {
                 self.preferences.panel_width = width;
             }
         }

@@ -42,12 +42,11 @@ fn plane_ui(
     });
     ui.horizontal(|ui| {
         let label = ui.label("Offset");
-        // A number that is typed in may lie outside of the scene.
         let offsets = clip.offsets(extent);
+        // A number that is typed into the field may lie outside of the scene.
         let slider = number_slider(&mut clip.offset, offsets)
             .clamping(SliderClamping::Never)
-            .max_decimals(6)
-            .step_by(0.0);
+            .show_value(false);
         ui.add(slider).labelled_by(label.id).on_hover_text(
             "Normal times position of the plane's points, in the file's coordinates",
         );

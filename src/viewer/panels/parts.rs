@@ -9,7 +9,7 @@ use hitscope_core::counts::counted;
 
 /// Height of the lowest list in points.
 const MIN_HEIGHT: f32 = 120.0;
-/// sRGB of the colour button of a part that isn't a material and has no custom colour.
+/// sRGB of the colour button of a part that has several materials and no custom colour.
 const VARIOUS: [u8; 3] = [160; 3];
 
 /// Shows the tab; `picked` is the picked primitive.
@@ -88,7 +88,7 @@ fn row_ui(ui: &mut egui::Ui, parts: &mut Parts, list: &PartList, number: usize, 
     });
 }
 
-/// The colour of a part: a custom one, or that of its material.
+/// The colour button of a part.
 fn colour_ui(ui: &mut egui::Ui, parts: &mut Parts, part: &Part, number: usize) {
     let name = part.key.name.as_str();
     let own = parts.own_colour(number);

@@ -54,7 +54,7 @@ pub struct Part {
     pub key: PartKey,
     /// The number of its primitives.
     pub count: usize,
-    /// sRGB of its diffuse colour, for a material that has one.
+    /// sRGB of the diffuse colour of its material; `None` if it has several, or the material has no colour.
     pub colour: Option<[u8; 3]>,
 }
 
@@ -75,6 +75,8 @@ impl PartList {
         };
         let mut numbers = HashMap::new();
         let mut same: HashMap<PartKey, u32> = HashMap::new();
+        // The material of each part; `None` if it has several.
+        let mut materials = Vec::new();
         for (group_index, group) in (0u32..).zip(scene.groups()) {
             let first = list.part_of.len() as u32;
             for primitive in first..first + group.count() as u32 {
@@ -87,17 +89,25 @@ impl PartList {
                     Grouping::Groups | Grouping::Shapes => (1, group_index),
                     Grouping::Materials => (0, scene.material(primitive)),
                 };
+                let material = scene.material(primitive);
                 let number = *numbers.entry(key).or_insert_with(|| {
                     let mut part = part(scene, grouping, primitive);
                     let before = same.entry(part.key.clone()).or_default();
                     part.key.same_before = *before;
                     *before += 1;
                     list.parts.push(part);
+                    materials.push(Some(material));
                     list.parts.len() - 1
                 });
                 list.parts[number].count += 1;
+                if materials[number] != Some(material) {
+                    materials[number] = None;
+                }
                 list.part_of.push(number as u32);
             }
+        }
+        for (part, material) in list.parts.iter_mut().zip(materials) {
+            part.colour = material.and_then(|material| colour(scene, material));
         }
         list
     }
@@ -113,7 +123,7 @@ impl PartList {
     }
 }
 
-/// The part of a primitive, with no primitives yet.
+/// The part of a primitive, with no primitives and no colour yet.
 fn part(scene: &Scene, grouping: Grouping, primitive: u32) -> Part {
     let attributes = scene.mesh().attributes();
     let named = |name: Option<&str>, otherwise: &str| match name {
@@ -131,7 +141,6 @@ fn part(scene: &Scene, grouping: Grouping, primitive: u32) -> Part {
         Grouping::Groups | Grouping::Shapes => shapes.to_owned(),
         Grouping::Materials => named(material.map(|m| m.name.as_str()), "(no material)"),
     };
-    let diffuse = material.and_then(|material| material.diffuse);
     Part {
         key: PartKey {
             grouping,
@@ -140,9 +149,13 @@ fn part(scene: &Scene, grouping: Grouping, primitive: u32) -> Part {
             same_before: 0,
         },
         count: 0,
-        colour: diffuse.filter(|_| is_material).map(|linear| {
-            let [r, g, b, _] = Display::default().encode(linear);
-            [r, g, b]
-        }),
+        colour: None,
     }
+}
+
+/// sRGB of a material's diffuse colour.
+fn colour(scene: &Scene, material: u32) -> Option<[u8; 3]> {
+    let material = scene.mesh().attributes().materials.get(material)?;
+    let [r, g, b, _] = Display::default().encode(material.diffuse?);
+    Some([r, g, b])
 }

@@ -2,9 +2,9 @@
 
 use super::mtl::{self, Definition, MaterialLibrary};
 use super::referenced_files::ReferencedFiles;
-use super::{LimitedWarnings, MAX_LISTED, reason};
+use super::{LimitedWarnings, MAX_LISTED};
 use crate::obj::contents::Contents;
-use crate::obj::error::{Problem, Warning};
+use crate::obj::error::{Problem, Warning, reason};
 use crate::obj::tally::shortened;
 use crate::obj::words::before_comment;
 use crate::progress::Progress;

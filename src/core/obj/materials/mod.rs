@@ -25,7 +25,6 @@ use crate::mesh::{Encoding, Material, Property, Texture};
 use crate::progress::Progress;
 use libraries::Libraries;
 use std::collections::HashSet;
-use std::io;
 use textures::Textures;
 
 /// The materials that faces use, in the order of their names, with their textures.
@@ -164,13 +163,5 @@ impl LimitedWarnings {
             Warning::of_file(format!("{count} more warnings about {subject}"))
         });
         self.listed.into_iter().chain(more).collect()
-    }
-}
-
-/// The message for a file that can't be read.
-fn reason(error: &io::Error) -> String {
-    match error.kind() {
-        io::ErrorKind::NotFound => "not found".to_owned(),
-        _ => error.to_string(),
     }
 }

@@ -1,10 +1,10 @@
 //! Decoder of texture pictures: PNG and JPEG in 8 bits, OpenEXR and Radiance HDR as linear numbers.
 
 use super::linear_picture::{self, Decoder, Memory, Problem, linear_decoder};
-use super::{reason, stored_file};
+use super::stored_file;
 use crate::brightness::MAX_BRIGHTNESS;
 use crate::mesh::Texture;
-use crate::obj::error::printable;
+use crate::obj::error::{printable, reason};
 use crate::obj::fence::fenced;
 use crate::progress::Progress;
 use glam::{UVec2, Vec3};

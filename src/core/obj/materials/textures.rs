@@ -1,12 +1,12 @@
 //! The textures of materials.
 
+use super::LimitedWarnings;
 use super::map_file::MapFile;
 use super::map_statements::ReliefStatement;
 use super::picture::{self, Picture};
 use super::referenced_files::ReferencedFiles;
-use super::{LimitedWarnings, reason};
 use crate::mesh::{Bitangent, Encoding, HeightUnit, Relief, ReliefKind, Texture, TextureMap};
-use crate::obj::error::Warning;
+use crate::obj::error::{Warning, reason};
 use crate::obj::tally::shortened;
 use crate::obj::words::before_comment;
 use crate::progress::Progress;

@@ -200,11 +200,20 @@ impl Picks {
         self.list.iter().find(|pick| pick.number == number)
     }
 
-    /// What a pick's ray hits; `None` for a miss, and until it is known.
+    /// The hit of a pick's ray; `None` for a miss, and until the ray is traced.
     pub fn hit(&self, number: u32) -> Option<&PickedPoint> {
+        self.traced(number)?.as_ref()
+    }
+
+    /// Whether a pick's ray has been traced.
+    pub fn is_traced(&self, number: u32) -> bool {
+        self.traced(number).is_some()
+    }
+
+    fn traced(&self, number: u32) -> Option<&Option<PickedPoint>> {
         let (_, found) = self.found.as_ref()?;
-        let of_pick = found.iter().find(|(of, _)| *of == number)?;
-        of_pick.1.as_ref()
+        let of_pick = found.iter().find(|(of, _)| *of == number);
+        of_pick.map(|(_, hit)| hit)
     }
 
     pub fn with_hits(&self) -> Vec<(&PickedPixel, Option<&PickedPoint>)> {
@@ -256,5 +265,31 @@ impl Picks {
         let walk = self.walk();
         let last = walk.len().checked_sub(1)?;
         Some(walk[self.step.min(last)].bounds)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hitscope_core::camera::Turntable;
+
+    #[test]
+    fn a_pick_is_traced_once_its_hit_or_miss_is_known() {
+        let size = UVec2::new(40, 30);
+        let camera = Turntable::framing(Aabb::EMPTY, size).camera(size);
+        let mut picks = Picks::default();
+        picks.add(Side::A, camera, UVec2::ZERO, true);
+        assert!(!picks.is_traced(1));
+        let basis = Basis {
+            sides: [None, None],
+            snapping: picks.snapping,
+            picks: vec![(1, Side::A, camera, UVec2::ZERO)],
+        };
+        let hits = basis.hits();
+        picks.found = Some((basis, hits));
+        assert!(picks.is_traced(1) && picks.hit(1).is_none());
+        let list = std::mem::take(&mut picks.list);
+        picks.restore(list);
+        assert!(!picks.is_traced(1));
     }
 }

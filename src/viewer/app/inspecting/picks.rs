@@ -113,35 +113,27 @@ impl App {
 
     /// The picks and their measurements, for the panel.
     pub(in crate::app) fn picks_view(&self) -> PicksView {
+        let picks = &self.picked.inspecting.picks;
         let row = |(pick, hit): (&PickedPixel, Option<&PickedPoint>)| PickRow {
             number: pick.number,
             name: pick.name.clone(),
             is_pinned: pick.is_pinned,
             is_on_b: pick.side == Side::B,
-            is_selected: self.picked.inspecting.picks.selected == Some(pick.number),
+            is_selected: picks.selected == Some(pick.number),
             hit: match hit {
                 Some(hit) => format!("{} {}, {}", hit.shape, hit.primitive, hit.snapped_to),
-                None if self.traced_document_of(pick.side).is_some() => "no hit".to_owned(),
-                None => "side B isn't traced".to_owned(),
+                None if self.traced_document_of(pick.side).is_none() => {
+                    "side B isn't traced".to_owned()
+                }
+                None if !picks.is_traced(pick.number) => "being traced…".to_owned(),
+                None => "no hit".to_owned(),
             },
         };
-        let walk = self.picked.inspecting.picks.walk();
-        let step = self
-            .picked
-            .inspecting
-            .picks
-            .step
-            .min(walk.len().saturating_sub(1));
+        let walk = picks.walk();
+        let step = picks.step.min(walk.len().saturating_sub(1));
         PicksView {
-            picks: self
-                .picked
-                .inspecting
-                .picks
-                .with_hits()
-                .into_iter()
-                .map(row)
-                .collect(),
-            measurements: self.picked.inspecting.picks.measurements().rows,
+            picks: picks.with_hits().into_iter().map(row).collect(),
+            measurements: picks.measurements().rows,
             walk: WalkView::of(walk, step),
         }
     }
