@@ -98,3 +98,7 @@ extern crate self as hitscope;
     reason = "its other functions are used by the integration tests"
 )]
 mod harness;
+
+#[cfg(target_os = "linux")]
+#[global_allocator]
+static ALLOCATOR: tikv_jemallocator::Jemalloc = tikv_jemallocator::Jemalloc;

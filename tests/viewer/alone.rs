@@ -28,10 +28,8 @@ pub fn alone(name: &str, test: impl FnOnce(&Path)) {
         .env("XDG_DATA_HOME", folder.path())
         .env("XDG_CONFIG_HOME", folder.path())
         .env_remove("DBUS_SESSION_BUS_ADDRESS")
-        // The allocator returns freed memory to the system.
-        .env("MALLOC_ARENA_MAX", "1")
-        .env("MALLOC_MMAP_THRESHOLD_", "65536")
-        .env("MALLOC_TRIM_THRESHOLD_", "65536")
+        // The allocator returns freed memory to the system at once.
+        .env("MALLOC_CONF", "dirty_decay_ms:0,muzzy_decay_ms:0")
         .output()
         .expect("started");
     let said = String::from_utf8_lossy(&output.stdout) + String::from_utf8_lossy(&output.stderr);

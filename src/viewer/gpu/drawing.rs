@@ -77,6 +77,15 @@ impl Drawing {
     }
 }
 
+/// A buffer of lines, and how it is drawn.
+struct LinePart<'a> {
+    pipeline: &'a wgpu::RenderPipeline,
+    style: &'a LineStyle,
+    buffer: &'a wgpu::Buffer,
+    /// The number of its lines.
+    count: u32,
+}
+
 /// Textures of the picture's size.
 pub struct Targets {
     size: UVec2,
@@ -253,21 +262,8 @@ impl Overlay {
             .iter()
             .map(|set| self.lines.style(&self.device, &set.style));
         let styles: Vec<LineStyle> = styles.collect();
-        let is_clipped = drawing.view.is_clipped();
-        let pipeline = |set: &DrawnLines| {
-            let is_cut = set.kind.is_cut && is_clipped;
-            self.lines
-                .pipeline(&self.device, LineKind { is_cut, ..set.kind })
-        };
-        let pipelines: Vec<_> = drawing.sets.iter().map(pipeline).collect();
-        // A part is a buffer of a set.
-        let parts = (0..drawing.sets.len())
-            .flat_map(|set| (0..drawing.sets[set].lines.buffers().len()).map(move |k| (set, k)));
-        let parts: Vec<(usize, usize)> = parts.collect();
-        let sizes = parts
-            .iter()
-            .map(|&(set, k)| drawing.sets[set].lines.buffers()[k].1);
-        let mut slices = Slices::new(sizes.collect());
+        let parts = self.line_parts(drawing, &styles);
+        let mut slices = Slices::new(parts.iter().map(|part| part.count).collect());
         let outline_style = drawing.outline.map(|s| self.lines.style(&self.device, &s));
         let outline = self.traced_group(drawing).zip(outline_style);
         let mut load = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
@@ -292,10 +288,8 @@ impl Overlay {
                     self.traced.draw_outline(&mut pass, group, style);
                 }
                 for (part, range) in slice {
-                    let (set, k) = parts[part];
-                    let drawn = &drawing.sets[set];
-                    let buffer = &drawn.lines.buffers()[k].0;
-                    LinePipelines::draw(&mut pass, pipelines[set], &styles[set], buffer, range);
+                    let part = &parts[part];
+                    LinePipelines::draw(&mut pass, part.pipeline, part.style, part.buffer, range);
                 }
             }
             self.submit(encoder, pace);
@@ -306,6 +300,28 @@ impl Overlay {
                 return false;
             }
         }
+    }
+
+    /// The buffers of all sets of lines, in the order in which they are drawn; `styles` are those of the sets.
+    fn line_parts<'a>(
+        &'a self,
+        drawing: &'a Drawing,
+        styles: &'a [LineStyle],
+    ) -> Vec<LinePart<'a>> {
+        let is_clipped = drawing.view.is_clipped();
+        let of_set = |(set, style): (&'a DrawnLines, &'a LineStyle)| {
+            let is_cut = set.kind.is_cut && is_clipped;
+            let kind = LineKind { is_cut, ..set.kind };
+            let pipeline = self.lines.pipeline(&self.device, kind);
+            let buffers = set.lines.buffers().iter();
+            buffers.map(move |(buffer, count)| LinePart {
+                pipeline,
+                style,
+                buffer,
+                count: *count,
+            })
+        };
+        drawing.sets.iter().zip(styles).flat_map(of_set).collect()
     }
 
     /// The traced pixels, bound.
