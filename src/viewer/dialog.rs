@@ -31,6 +31,8 @@ pub struct FileDialog {
     native: Option<Task<Choice>>,
     /// Replaces the system's dialog.
     field: Option<PathField>,
+    /// The path that was entered last.
+    entered: Option<PathBuf>,
 }
 
 /// The result of the system's dialog.
@@ -65,7 +67,13 @@ impl FileDialog {
             suggested: None,
             native: None,
             field: None,
+            entered: None,
         }
+    }
+
+    /// The path with which a path field starts.
+    fn first_path(&self) -> Option<PathBuf> {
+        self.suggested.clone().or_else(|| self.entered.clone())
     }
 
     /// Shows the system's dialog, or the path field if the dialog is already open and perhaps hidden. The dialog starts
@@ -74,10 +82,10 @@ impl FileDialog {
         let is_saving = self.spec.is_saving;
         self.suggested = suggested.filter(|_| is_saving).map(Path::to_owned);
         if self.native.is_some() {
-            let suggested = self.suggested.as_deref();
+            let first = self.first_path();
             self.field.get_or_insert_with(|| {
                 let reason = "The system's file dialog is open. You can also type a path here.";
-                PathField::because(reason, suggested)
+                PathField::because(reason, first.as_deref())
             });
             return;
         }
@@ -130,7 +138,7 @@ impl FileDialog {
             } else {
                 "The system's file dialog couldn't be shown. Type a path."
             };
-            self.field = Some(PathField::because(reason, self.suggested.as_deref()));
+            self.field = Some(PathField::because(reason, self.first_path().as_deref()));
         }
         choice.path
     }
@@ -179,7 +187,8 @@ impl FileDialog {
         let path = field.path.trim().to_owned();
         if is_entered && !path.is_empty() {
             self.field = None;
-            return Some(PathBuf::from(path));
+            self.entered = Some(PathBuf::from(&path));
+            return self.entered.clone();
         }
         if !is_open {
             self.field = None;

@@ -14,7 +14,7 @@ use hitscope_core::random::Random;
 use hitscope_core::render::render;
 use hitscope_core::scene::{SceneOptions, Shading, scene};
 use hitscope_core::shape::Sphere;
-use hitscope_core::{Camera, Clip, Intersector, Ray, Scene};
+use hitscope_core::{Camera, Clip, Intersector, Ray, Scene, TriangleMesh};
 use std::sync::Arc;
 
 /// A torus of triangles through two spheres.
@@ -294,5 +294,51 @@ fn a_clip_changes_neither_bounds_nor_kept_hits_and_can_be_removed() {
         let primitive = crossing.hit.primitive;
         let is_kept = kept.iter().any(|kept| kept.hit.primitive == primitive);
         assert_eq!(shown, is_kept, "{crossing:?}");
+    }
+}
+
+#[test]
+fn a_face_in_the_plane_of_a_clip_is_shown_as_a_whole_or_not_at_all() {
+    let mut random = Random::new(3);
+    for k in 0..40 {
+        let scale = [1e-3, 1.0, 1e4][k % 3];
+        let normal = if k % 2 == 0 {
+            DVec3::Y
+        } else {
+            random.direction()
+        };
+        let middle = scale * random.in_cube();
+        let across = normal.any_orthonormal_vector();
+        let corners = [0.0, 2.1, 4.2].map(|angle: f64| {
+            let around = glam::DQuat::from_axis_angle(normal, angle);
+            (middle + scale * (around * across)).as_vec3()
+        });
+        let scene = scene(TriangleMesh::new(corners.to_vec(), vec![[0, 1, 2]]));
+        let eye = middle + scale * (normal + 2.0 * random.in_cube());
+        let rays: Vec<Ray> = (0..200)
+            .map(|_| {
+                let weights = [random.unit(), random.unit(), random.unit()];
+                let sum: f64 = weights.iter().sum();
+                let target = corners.iter().zip(weights);
+                let target: DVec3 = target.map(|(c, w)| c.as_dvec3() * (w / sum)).sum();
+                Ray::new(eye.as_vec3(), (target - eye).as_vec3()).expect("a ray")
+            })
+            .collect();
+        for kernel in tiers() {
+            let whole: Arc<dyn Intersector> = scene.intersector(kernel).into();
+            let hit_count = |scene: &Scene| {
+                let clipped = scene.clipped(Arc::clone(&whole));
+                let hits = rays.iter().filter_map(|ray| clipped.closest_hit(ray));
+                hits.count()
+            };
+            let all = hit_count(&scene);
+            assert!(all > 190, "{all}");
+            let mut of_sides = [1.0, -1.0].map(|sign| {
+                let clip = Clip::plane(sign * normal, sign * normal.dot(middle));
+                hit_count(&scene.with_clip(Some(clip.expect("a plane"))))
+            });
+            of_sides.sort_unstable();
+            assert_eq!(of_sides, [0, all], "{} {k}", kernel.info.name);
+        }
     }
 }

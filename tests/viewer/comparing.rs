@@ -130,6 +130,51 @@ fn a_wipe_shows_the_other_view_right_of_the_divider_which_can_be_dragged() {
 }
 
 #[test]
+fn a_saved_picture_has_both_sides_of_a_wipe() {
+    let Some((mut window, folder)) = opened(SQUARE) else {
+        return;
+    };
+    compare(&mut window);
+    choose(&mut window, "View of B", "Normal");
+    let places = [0.45, 0.55];
+    let shown = places.map(|x| colour(&mut window, x, 0.5));
+    assert_ne!(shown[0], shown[1]);
+    press(&mut window, Key::F12);
+    wait(&mut window, "the file", |app| !app.toasts().is_empty());
+    let saved = image::open(folder.path().join("mesh-1.png")).expect("saved");
+    let saved = saved.to_rgb8();
+    let of_file = places.map(|x| {
+        let x = (x * saved.width() as f32) as u32;
+        saved.get_pixel(x, saved.height() / 2).0
+    });
+    assert_eq!(of_file, shown);
+}
+
+#[test]
+fn home_frames_both_sides() {
+    let Some((mut window, folder)) = opened(SQUARE) else {
+        return;
+    };
+    let large = write(
+        &folder,
+        "large.obj",
+        &SQUARE.replace('1', "9").replace("f 9", "f 1"),
+    );
+    compare(&mut window);
+    press(&mut window, Key::Home);
+    let near = window.state().turntable().distance;
+    choose(&mut window, "Source", Source::Mesh.title());
+    let Some(()) = enter_path(&mut window, "Compare with a file…", &large) else {
+        return;
+    };
+    assert_eq!(window.state().turntable().distance, near);
+    press(&mut window, Key::Home);
+    settled(&mut window);
+    let far = window.state().turntable().distance;
+    assert!((far / near - 9.0).abs() < 0.1, "{near} {far}");
+}
+
+#[test]
 fn a_key_switches_the_sides_and_undo_brings_the_last_one_back() {
     let Some((mut window, _folder)) = opened(SQUARE) else {
         return;

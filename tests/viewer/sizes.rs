@@ -160,6 +160,7 @@ fn all_reachable(window: &mut Window, moment: &str) {
 fn every_control_can_be_reached_at_300_percent_and_in_a_window_of_800_by_600_pixels() {
     for (size, scale) in [
         (vec2(1280.0, 800.0), 3.0),
+        (vec2(800.0, 600.0), 3.0),
         (vec2(800.0, 600.0), 2.0),
         (vec2(800.0, 600.0), 1.0),
         (vec2(1200.0, 700.0), 1.5),

@@ -2,6 +2,7 @@
 
 use crate::harness::{Window, bare, press, wait};
 use egui::{Event, Key, Modifiers, OutputCommand};
+use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, UVec2};
 use hitscope_core::Camera;
 use hitscope_core::camera::UpAxis;
@@ -73,6 +74,9 @@ fn a_copied_view_is_pasted_as_the_same_rays() {
         press(&mut window, Key::Num5);
         press(&mut window, Key::Num7);
         assert_ne!(camera(&window), before);
+        // A button that has the focus doesn't keep the text.
+        window.get_by_label("Wireframe").focus();
+        window.run_steps(2);
         paste(&mut window, &text);
         assert_eq!(window.state().notice(), None);
         let scale = window.state().turntable().distance;

@@ -69,13 +69,27 @@ impl HalfSpace {
 
     /// Whether a point is on this side. A point with a NaN isn't.
     pub fn keeps(&self, point: DVec3) -> bool {
-        self.keeps_distance(self.distance(point))
+        self.keeps_distance(self.offset - self.normal.dot(point))
     }
 
-    /// The distance of a point to the plane in lengths of the normal, positive on this side. The opposite side computes
-    /// the same number with the opposite sign.
-    fn distance(&self, point: DVec3) -> f64 {
-        self.offset - self.normal.dot(point)
+    /// The offset at which rays from an origin are cut: that of the plane's face on the side that doesn't own the plane.
+    /// The opposite side computes the same number with the opposite sign.
+    ///
+    /// ```text
+    ///   owner │▓▓▓▓▓│ other side          plane = offset, ▓ = thickness
+    ///       offset  here
+    /// ```
+    pub fn offset_from(&self, origin: DVec3) -> f64 {
+        /// Half ulp of a vertex and some ulps of t, relative to the numbers that they are computed from.
+        const THICKNESS: f64 = 1.0 / (1 << 20) as f64;
+        let size = self.normal.abs().dot(origin.abs()) + self.offset.abs();
+        let thickness = THICKNESS * size;
+        self.offset
+            + if self.has_plane {
+                thickness
+            } else {
+                -thickness
+            }
     }
 
     fn keeps_distance(&self, distance: f64) -> bool {
@@ -85,7 +99,8 @@ impl HalfSpace {
     /// The t of a ray on this side; `None` if there are none, or for a NaN. The origin decides about a ray that is
     /// parallel to the plane.
     pub(super) fn kept(&self, origin: DVec3, dir: DVec3) -> Option<KeptInterval> {
-        let (distance, speed) = (self.distance(origin), self.normal.dot(dir));
+        let distance = self.offset_from(origin) - self.normal.dot(origin);
+        let speed = self.normal.dot(dir);
         let t = distance / speed;
         if speed > 0.0 && !t.is_nan() {
             // The ray leaves this side.
@@ -108,7 +123,8 @@ impl HalfSpace {
 
     /// The t of a line on this side, with the plane, in f64.
     pub(super) fn crossed(&self, origin: DVec3, dir: DVec3) -> Option<[f64; 2]> {
-        let (distance, speed) = (self.distance(origin), self.normal.dot(dir));
+        let distance = self.offset - self.normal.dot(origin);
+        let speed = self.normal.dot(dir);
         let t = distance / speed;
         if speed > 0.0 {
             Some([f64::NEG_INFINITY, t])

@@ -8,8 +8,8 @@
 //!
 //! The interval's ends are computed in f64, with the same operations for either side of a plane, and rounded down to
 //! f32. The clip then decides by the f32 t that a kernel reports: one side keeps hits up to the rounded end, the other
-//! one those behind it. A hit within an ulp of a plane may be on the wrong side of it, but is kept by exactly one side;
-//! of a face that lies in the plane, each side may show a part.
+//! one those behind it. A plane is as thick as the errors of t and of f32 positions, and all of it belongs to the side
+//! that owns the plane: of a face in the plane, that side shows all, and the other one nothing.
 
 mod half_space;
 

@@ -41,7 +41,7 @@ pub struct LightArgs {
     pub second_spawn: Option<String>,
     /// Most surfaces on a path: 0 shows emitters alone, 1 adds light that one surface reflects
     /// [default: the scene file's, or no limit]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = parse_depth)]
     pub depth: Option<u32>,
     /// Distance to which surfaces occlude in the view “ao”, in radii of the scene's bounding sphere [default: 1]
     #[arg(long, value_name = "RADII", allow_negative_numbers = true, value_parser = parse_distance)]
@@ -267,6 +267,11 @@ fn policy_names() -> impl clap::builder::TypedValueParser<Value = String> {
 }
 
 /// `0.5`.
+fn parse_depth(text: &str) -> Result<u32, String> {
+    let expected = || "expected a number of surfaces; --depth-map writes distances to a file";
+    text.parse().map_err(|_| expected().to_owned())
+}
+
 fn parse_distance(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(radii) if radii > 0.0 => Ok(radii),

@@ -81,6 +81,13 @@ pub struct SceneRow {
     pub speed: Speed,
 }
 
+impl SceneRow {
+    /// All wrong decisions.
+    pub fn wrong(&self) -> u64 {
+        self.missed + self.false_hits + self.other_triangle
+    }
+}
+
 /// The scene's primitives, as in “12 triangles, 3 spheres”, or “an empty scene”.
 pub(crate) fn counted_primitives(scene: &Scene) -> String {
     if scene.primitive_count() == 0 {

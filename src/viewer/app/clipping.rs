@@ -69,7 +69,12 @@ impl App {
 
     /// Clips by the plane that touches the surface at the marked point, and removes the side of the camera.
     pub(crate) fn clip_at_pick(&mut self) {
+        /// Part of the scene's longest side. Exceeds the thickness of a plane, so that the surface itself stays.
+        const BEFORE: f64 = 1e-5;
+        let extent = self.extent();
+        let before = BEFORE * (extent.max - extent.min).max_element();
         if let Some((point, normal)) = self.marked_surface() {
+            let point = point + before * normal.normalize_or_zero();
             self.seen.settings.clip.use_plane(normal, point);
         }
     }

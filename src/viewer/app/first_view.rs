@@ -74,10 +74,16 @@ impl App {
 
     /// The camera, moved so that it frames the scene.
     fn framed(&self) -> Turntable {
-        let bounds = self.open.document.loaded.scene.bounds_with_elements();
         let mut turntable = self.seen.turntable;
-        turntable.frame(bounds, self.shown.resolution);
+        turntable.frame(self.bounds_of_sides(), self.shown.resolution);
         turntable
+    }
+
+    /// The box around all that is shown: the open scene, and that of side B of a comparison.
+    fn bounds_of_sides(&self) -> Aabb {
+        let bounds = self.open.document.loaded.scene.bounds_with_elements();
+        let other = self.bounds_of_other_scene();
+        other.map_or(bounds, |other| bounds.union(other))
     }
 
     fn use_view(&mut self, view: Turntable) {
@@ -103,7 +109,7 @@ impl App {
     /// Looks at the scene from the default direction. Keeps the settings that don't depend on the mesh: up
     /// axis, projection and field of view.
     pub(super) fn use_default_view(&mut self) {
-        let bounds = self.open.document.loaded.scene.bounds_with_elements();
+        let bounds = self.bounds_of_sides();
         let mut turntable = Turntable::framing(bounds, self.shown.resolution);
         turntable.fov_y_radians = self.seen.turntable.fov_y_radians;
         turntable.is_orthographic = self.seen.turntable.is_orthographic;

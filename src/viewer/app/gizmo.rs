@@ -33,11 +33,13 @@ struct End {
 }
 
 impl App {
-    /// Shows the gizmo if it is on and the picture has room for it.
+    /// Shows the gizmo if it is on and the picture has room for it. A magnified picture has numbers in its place.
     pub(super) fn gizmo_ui(&mut self, ui: &egui::Ui, canvas: Canvas) {
         let rect = canvas.rect;
         let is_small = rect.size().min_elem() < SMALLEST_PICTURE;
-        let is_hidden = !self.preferences.navigation.shows_gizmo || self.screenshot.is_some();
+        let is_hidden = !self.preferences.navigation.shows_gizmo
+            || self.screenshot.is_some()
+            || self.shown.magnifier.is_on();
         if is_hidden || is_small || self.document().is_blank {
             return;
         }

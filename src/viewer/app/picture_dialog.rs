@@ -68,6 +68,18 @@ impl PictureDialog {
         std::mem::take(&mut self.is_open)
     }
 
+    /// The time since the picture began to be rendered, if the dialog is closed; `None` if it shows the progress, or no
+    /// picture is being rendered.
+    pub fn hidden_elapsed(&self) -> Option<Duration> {
+        let rendering = self.rendering.as_ref().filter(|_| !self.is_open)?;
+        Some(rendering.task.elapsed())
+    }
+
+    /// Stops rendering.
+    pub fn cancel(&mut self) {
+        self.rendering = None;
+    }
+
     fn dialog_ui(&mut self, ctx: &egui::Context, compares: bool) -> Option<Choice> {
         let mut is_open = self.is_open;
         let shown = egui::Window::new("Render a picture")
@@ -79,7 +91,8 @@ impl PictureDialog {
             .show(ctx, |ui| match &self.rendering {
                 Some(rendering) => {
                     ui.ctx().request_repaint_after(Duration::from_millis(100));
-                    let bar = ProgressBar::new(rendering.state.part()).show_percentage();
+                    let (part, elapsed) = (rendering.state.part(), rendering.task.elapsed());
+                    let bar = ProgressBar::new(part).text(progress_text(part, elapsed));
                     ui.add(bar.desired_width(240.0));
                     ui.button("Cancel").clicked().then_some(Choice::Cancel)
                 }
@@ -112,9 +125,9 @@ impl PictureDialog {
             ui.radio_value(&mut self.format, Format::Png, "PNG")
                 .on_hover_text("As on the screen, 8 bits per channel");
             ui.radio_value(&mut self.format, Format::Exr, "EXR")
-                .on_hover_text("Light as numbers, without exposure and without lines");
+                .on_hover_text("Light as numbers, without exposure and without overlay");
         });
-        let lines = egui::Checkbox::new(&mut self.has_overlay, "With the lines over it");
+        let lines = egui::Checkbox::new(&mut self.has_overlay, "With the overlay");
         ui.add_enabled(self.format == Format::Png, lines);
         let background = egui::Checkbox::new(&mut self.is_transparent, "Transparent background");
         ui.add_enabled(!compares, background)
@@ -127,6 +140,23 @@ impl PictureDialog {
         }
         choice
     }
+}
+
+/// The rendered part and the time left, such as `12 %, about 5 min left`.
+fn progress_text(part: f32, elapsed: Duration) -> String {
+    /// A smaller part, or a shorter time, says little about the rest.
+    const FIRST: (f32, Duration) = (0.005, Duration::from_secs(2));
+    let percent = format!("{:.0} %", 100.0 * part);
+    if part < FIRST.0 || elapsed < FIRST.1 {
+        return percent;
+    }
+    let secs = elapsed.as_secs_f32() * (1.0 / part - 1.0);
+    let left = match secs {
+        ..90.0 => format!("{secs:.0} s"),
+        ..5400.0 => format!("{:.0} min", secs / 60.0),
+        _ => format!("{:.0} h", secs / 3600.0),
+    };
+    format!("{percent}, about {left} left")
 }
 
 impl App {
@@ -142,7 +172,7 @@ impl App {
         match self.pictures.dialog.dialog_ui(ctx, self.compares_kernels()) {
             None => (),
             Some(Choice::UseWindowSize) => self.pictures.dialog.size = self.shown.resolution,
-            Some(Choice::Cancel) => self.pictures.dialog.rendering = None,
+            Some(Choice::Cancel) => self.pictures.dialog.cancel(),
             Some(Choice::Render) => self.render_picture(ctx, frame),
         }
     }
@@ -226,5 +256,20 @@ impl App {
             Ok(None) => (),
             Err(error) => self.error(error),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_is_that_of_the_rest_at_the_same_speed() {
+        let text = |part, secs| progress_text(part, Duration::from_secs(secs));
+        assert_eq!(text(0.001, 60), "0 %");
+        assert_eq!(text(0.5, 1), "50 %");
+        assert_eq!(text(0.5, 30), "50 %, about 30 s left");
+        assert_eq!(text(0.25, 100), "25 %, about 5 min left");
+        assert_eq!(text(0.01, 600), "1 %, about 16 h left");
     }
 }

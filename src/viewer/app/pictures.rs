@@ -40,7 +40,7 @@ impl Pictures {
 }
 
 impl App {
-    /// Saves the picture on the screen beside the open file, with or without the lines over it.
+    /// Saves the picture on the screen beside the open file, with or without the overlay.
     pub(crate) fn save_picture(
         &mut self,
         has_overlay: bool,
@@ -52,7 +52,7 @@ impl App {
         self.take_picture(target, has_overlay, ctx, frame);
     }
 
-    /// Copies the picture on the screen with the lines over it.
+    /// Copies the picture on the screen with the overlay.
     pub(crate) fn copy_picture(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
         self.take_picture(Target::Clipboard, true, ctx, frame);
     }
@@ -64,22 +64,27 @@ impl App {
         ctx: &egui::Context,
         frame: &eframe::Frame,
     ) {
-        let film = self.traced.tracer.film();
-        let size = film.size();
-        let on_screen = self.traced.on_screen.clone();
-        let matching = on_screen.filter(|(_, camera)| camera.resolution() == size);
-        let (Some((scene, camera)), Some(gpu)) = (matching, frame.wgpu_render_state()) else {
+        let on_screen = self.traced.on_screen.clone().zip(self.shown_picture());
+        let matching =
+            on_screen.filter(|((_, camera), picture)| camera.resolution() == picture.size);
+        let (Some(((scene, camera), picture)), Some(gpu)) = (matching, frame.wgpu_render_state())
+        else {
             return self.refuse("The picture isn't ready yet");
         };
-        let mut pixels = self.traced.development.pixels(film).to_vec();
         let scale = ctx.pixels_per_point();
         let input = has_overlay.then(|| self.overlay_input(&scene, camera, scale));
         let overlays = self.seen.settings.overlays.clone();
         let (device, queue) = (gpu.device.clone(), gpu.queue.clone());
         let work = move || {
+            let (size, mut pixels) = (picture.size, picture.pixels);
             if let Some(input) = input {
+                let bare = pixels.clone();
                 offscreen::draw_onto(&mut pixels, (&device, &queue), &input, &overlays)
                     .map_err(|error| error.to_string())?;
+                let rows = pixels.chunks_mut(size.x as usize);
+                for (row, bare) in rows.zip(bare.chunks(size.x as usize)) {
+                    row[picture.overlaid..].copy_from_slice(&bare[picture.overlaid..]);
+                }
             }
             match target {
                 Target::File(path) => Output::create(&path)

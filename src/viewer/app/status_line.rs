@@ -45,11 +45,12 @@ impl App {
             format!("{kernel} kernel"),
             primitives(scene),
             self.samples_part(&status),
-            format!("pass {} of {}", status.passes, status.pass_count),
+            format!("pass {}/{}", status.passes, status.pass_count),
             speed(status.rays_per_s, unit),
             format!("{:.1} s", status.lasted.as_secs_f64()),
             format!("{tree} {:.0} ms", ms(scene.build_time())),
         ];
+        parts.extend(self.first_picture().map(shown_time));
         // Medians and 99th percentiles.
         for (name, times) in [
             ("frame", status.frame_interval),
@@ -59,7 +60,6 @@ impl App {
                 parts.push(format!("{name} {median:.0} ms, p99 {p99:.0} ms"));
             }
         }
-        parts.extend(self.first_picture().map(shown_time));
         if self.traced.tracer.non_finite() > 0 {
             let count = self.traced.tracer.non_finite() as usize;
             parts.insert(2, format!("{} not finite", counted(count, "sample")));

@@ -24,7 +24,7 @@ impl App {
                 self.tell("Moved the camera to the pasted view");
             }
             Err(reason) => self.error(format!(
-                "the clipboard holds no view, such as --eye 1,2,3 --target 0,0,0 --fov 40: {reason}"
+                "The clipboard holds no view, such as --eye 1,2,3 --target 0,0,0 --fov 40: {reason}"
             )),
         }
     }

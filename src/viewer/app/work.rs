@@ -1,6 +1,6 @@
 //! Long-running background work: it is shown, and the user can cancel it.
 //!
-//! Loading and *Render picture* have their own progress bars.
+//! Loading and the dialog *Render a picture* have their own progress bars.
 
 use super::App;
 use crate::settings::Settings;
@@ -70,6 +70,11 @@ static WORK: &[Work] = &[
         title: "Measuring distances between both sides",
         elapsed: |app| app.compared.measuring_elapsed(),
         cancel: |app| app.seen.comparison.is_on = false,
+    },
+    Work {
+        title: "Rendering a picture",
+        elapsed: |app| app.pictures.dialog.hidden_elapsed(),
+        cancel: |app| app.pictures.dialog.cancel(),
     },
     Work {
         title: "Measuring speed and accuracy",

@@ -61,7 +61,7 @@ pub(super) const ROWS: &[Command] = &[
         name: "copy-picture",
         keys: &[],
         title: "Copy picture",
-        tooltip: "Copies the picture with the lines over it",
+        tooltip: "Copies the picture with the overlay",
         place: VIEW_TEXT,
         is_on: None,
         obstacle: lacks_scene,

@@ -45,17 +45,19 @@ fn modifier_count(key: &KeyboardShortcut) -> u32 {
     u32::from(alt) + u32::from(shift) + u32::from(ctrl || mac_cmd || command)
 }
 
-/// The commands of the keys pressed since the last frame; none while a text field has the focus. Escape is left
-/// to an open drop-down, which egui then closes.
+/// The commands of the keys pressed since the last frame; none while a text field has the focus. Another control that
+/// has the focus gets the plain keys, such as the space bar. Escape is left to an open drop-down, which egui then closes.
 pub fn pressed(ctx: &egui::Context) -> Vec<&'static Command> {
-    if ctx.egui_wants_keyboard_input() {
+    if ctx.text_edit_focused() {
         return Vec::new();
     }
+    let has_focus = ctx.egui_wants_keyboard_input();
     let is_popup_open = egui::Popup::is_any_open(ctx);
     ctx.input_mut(|input| {
         let is_pressed = |(key, command): &&(KeyboardShortcut, &Command)| {
             let is_left_to_popup = is_popup_open && command.name == edit::DISMISS;
-            !is_left_to_popup && input.consume_shortcut(key)
+            let is_left_to_control = has_focus && is_plain(key);
+            !is_left_to_popup && !is_left_to_control && input.consume_shortcut(key)
         };
         KEYS.iter()
             .filter(is_pressed)
@@ -64,9 +66,17 @@ pub fn pressed(ctx: &egui::Context) -> Vec<&'static Command> {
     })
 }
 
+/// Whether a control may use a key: it has neither Ctrl nor Alt, and isn't a function key.
+fn is_plain(key: &KeyboardShortcut) -> bool {
+    let name = key.logical_key.name();
+    let is_function_key =
+        name.len() > 1 && name.starts_with('F') && name[1..].parse::<u8>().is_ok();
+    !is_function_key && !key.modifiers.command && !key.modifiers.ctrl && !key.modifiers.alt
+}
+
 /// The text that was pasted since the last frame, unless a text field has the focus.
 pub fn pasted(ctx: &egui::Context) -> Option<String> {
-    if ctx.egui_wants_keyboard_input() {
+    if ctx.text_edit_focused() {
         return None;
     }
     ctx.input(|input| {

@@ -1,6 +1,7 @@
 //! The menu bar: every command, with its key at the right.
 
 use super::{Commands, Entry, Menu, Place};
+use egui::scroll_area::ScrollBarVisibility;
 use egui::{Frame, Margin, MenuBar, Panel, ScrollArea, TextWrapMode};
 
 /// Width of the narrowest menu in points.
@@ -14,11 +15,16 @@ const MIN_HEIGHT: f32 = 80.0;
 pub fn menu_bar_ui(ui: &mut egui::Ui, commands: &Commands) {
     let frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(6, 1));
     Panel::top("menu bar").frame(frame).show(ui, |ui| {
-        MenuBar::new().ui(ui, |ui| {
-            for menu in Menu::ALL {
-                ui.menu_button(menu.title(), |ui| menu_ui(ui, menu, commands));
-            }
-        });
+        // In a narrow window the bar scrolls.
+        ScrollArea::horizontal()
+            .scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden)
+            .show(ui, |ui| {
+                MenuBar::new().ui(ui, |ui| {
+                    for menu in Menu::ALL {
+                        ui.menu_button(menu.title(), |ui| menu_ui(ui, menu, commands));
+                    }
+                });
+            });
     });
 }
 

@@ -29,6 +29,11 @@ static TOOLS: &[Tool] = &[
 
 /// Shows the tool bar: one row in a window of 800 points, several in a narrower one.
 pub fn tool_bar_ui(ui: &mut egui::Ui, commands: &Commands) {
+    /// Height in points of the lowest window that has a tool bar. A lower one has no room for it beside the panel.
+    const LOWEST_WINDOW: f32 = 250.0;
+    if ui.ctx().content_rect().height() < LOWEST_WINDOW {
+        return;
+    }
     let frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(6, 4));
     Panel::top("toolbar").frame(frame).show(ui, |ui| {
         ui.horizontal_wrapped(|ui| {

@@ -75,10 +75,11 @@ impl ViewUniform {
     #[must_use]
     pub fn clipped(mut self, clip: Option<&Clip>) -> Self {
         let half_spaces = clip.map_or(&[][..], Clip::half_spaces);
+        let eye = Vec3::from_array(self.eye).as_dvec3();
         self.planes = [KEEPS_ALL; MAX_OVERLAY_PLANES];
         for (plane, half_space) in self.planes.iter_mut().zip(half_spaces) {
             let normal = half_space.normal().as_vec3();
-            *plane = normal.extend(half_space.offset() as f32).to_array();
+            *plane = normal.extend(half_space.offset_from(eye) as f32).to_array();
         }
         self
     }

@@ -6,7 +6,9 @@ use crate::numbers::significant;
 use crate::quality::{MovingResolution, Quality};
 use crate::settings::Settings;
 use crate::trade::Trade;
-use egui::{CollapsingHeader, ComboBox, RichText};
+use egui::collapsing_header::CollapsingState;
+use egui::{ComboBox, RichText};
+use hitscope_lab::measure::statistics::rate_text;
 
 /// Shows the sets. Returns whether the user wants the kernels to be measured.
 pub fn quality_ui(
@@ -16,23 +18,25 @@ pub fn quality_ui(
     commands: &Commands,
 ) -> bool {
     let chosen = Quality::of(settings);
-    let mut opens_details = false;
+    let id = ui.scope_id().with("quality details");
+    let mut details = CollapsingState::load_with_default_open(ui.ctx(), id, false);
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Quality").strong());
         for quality in commands.at(QUALITIES) {
             commands.choice_ui(ui, quality);
         }
-        opens_details = ui
+        let custom = ui
             .selectable_label(chosen.is_none(), "Custom")
             .on_hover_text(
-                "Opens the details. Selected while the settings match none of the levels",
-            )
-            .clicked();
+                "Shows or hides the details. Selected while the settings match none of the levels",
+            );
+        if custom.clicked() {
+            details.toggle(ui);
+        }
     });
-    CollapsingHeader::new("Details")
-        .id_salt("quality")
-        .open(opens_details.then_some(true))
-        .show(ui, |ui| details_ui(ui, settings));
+    details
+        .show_header(ui, |ui| ui.label("Details"))
+        .body(|ui| details_ui(ui, settings));
     match trade.and_then(|trade| figures(settings, trade)) {
         Some(figures) => {
             ui.label(figures);
@@ -78,8 +82,8 @@ fn figures(settings: &Settings, trade: &Trade) -> Option<String> {
     let kernel = settings.kernel();
     let row = rows.iter().find(|row| trade.is_used(kernel, row))?;
     let speed = significant(row.speed.mrays_per_s.primary, 3);
-    let wrong = significant(row.wrong_per_million, 2);
+    let wrong = rate_text(row.wrong(), row.n);
     Some(format!(
-        "Here {speed} Mrays/s on one thread, {wrong} wrong decisions per million rays"
+        "Here {speed} million camera rays per second on one thread, {wrong} wrong decisions per million rays"
     ))
 }

@@ -10,7 +10,7 @@ use crate::trade::{Axis, Trade, TradeState};
 use egui::{Color32, FontId, Pos2, RichText, Role, Sense, Theme, WidgetInfo};
 use egui_plot::{AxisHints, GridMark, HLine, Plot, PlotPoint, PlotPoints, PlotUi, Points};
 use hitscope_core::counts::grouped;
-use hitscope_core::kernel::KernelInfo;
+use hitscope_core::kernel::{KernelInfo, Tier};
 use hitscope_lab::measure::scene::{OF_WHOLE_SCENE, SceneRow};
 use hitscope_lab::measure::statistics::{rate_text, short};
 
@@ -18,7 +18,7 @@ use hitscope_lab::measure::statistics::{rate_text, short};
 const COLUMNS_ABOUT: &str = "\
 speed: rays per second of CPU time relative to the fast kernel, averaged over camera, bounce and random rays; the \
 fast kernel is measured alternately with each other kernel to cancel out other load
-Mrays/s: million rays per second of CPU time
+Mrays/s: million rays per second of CPU time: the mean of the fast kernel's rates, times the speed
 wrong/M: wrong decisions per million rays
 t ulps: 99th percentile of the error of t, in f32 ulps";
 
@@ -109,10 +109,13 @@ fn speed(row: &SceneRow) -> f64 {
     1.0 / row.speed.time_relative_to_fast.max(1e-3)
 }
 
-/// The mean of the workloads' rates.
-fn mrays_per_s(row: &SceneRow) -> f64 {
-    let rates = row.speed.mrays_per_s;
-    (rates.primary + rates.bounce + rates.random) / 3.0
+/// The mean of the workloads' rates of the kernel that speeds are relative to; 0 if there is none.
+fn mrays_per_s_of_fast(rows: &[SceneRow]) -> f64 {
+    let fast = rows.iter().find(|row| row.info.tier == Some(Tier::Fast));
+    fast.map_or(0.0, |fast| {
+        let rates = fast.speed.mrays_per_s;
+        (rates.primary + rates.bounce + rates.random) / 3.0
+    })
 }
 
 /// A row's place in the plot.
@@ -246,8 +249,9 @@ fn draw_labels(
 /// Shows a row for each kernel, shape by shape; a click selects it.
 fn table_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut Settings) {
     const COLUMNS: [&str; 5] = ["kernel", "speed", "Mrays/s", "wrong/M", "t ulps"];
+    let of_fast = mrays_per_s_of_fast(rows);
     let cells: Vec<[String; 5]> = std::iter::once(COLUMNS.map(str::to_owned))
-        .chain(rows.iter().map(cells))
+        .chain(rows.iter().map(|row| cells(row, of_fast)))
         .collect();
     let widths = widths(&cells);
     let text = |cells: &[String; 5]| {
@@ -295,13 +299,12 @@ fn table_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut 
         });
 }
 
-fn cells(row: &SceneRow) -> [String; 5] {
-    let wrong = row.missed + row.false_hits + row.other_triangle;
+fn cells(row: &SceneRow, mrays_per_s_of_fast: f64) -> [String; 5] {
     [
         row.info.short_name().to_owned(),
         format!("{:.2}", speed(row)),
-        short(mrays_per_s(row)),
-        rate_text(wrong, row.n),
+        short(speed(row) * mrays_per_s_of_fast),
+        rate_text(row.wrong(), row.n),
         row.t_ulps.map_or_else(dash, |t| short(t.p99)),
     ]
 }

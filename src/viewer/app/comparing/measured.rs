@@ -46,6 +46,11 @@ impl Measured {
         let map = self.map_task.as_ref().map(|(_, task)| task.elapsed());
         distances.or(map)
     }
+
+    /// The pixels of the latest distance map.
+    pub fn map_pixels(&self) -> Option<&[[u8; 4]]> {
+        self.map.as_ref().map(|map| map.pixels.as_slice())
+    }
 }
 
 /// The result of a task that has ended.

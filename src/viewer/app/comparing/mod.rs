@@ -5,6 +5,7 @@
 //! | this file | [`Compared`], the owner of side B |
 //! | `sides` | the documents of side B; tracing and rasterizing them |
 //! | `screen` | drawing side B, the divider and the difference |
+//! | `shown` | the picture on the screen as pixels |
 //! | `rasterized_side` | side A when it is rasterized |
 //! | `measured` | figures of the differences, distances, the distance map |
 //! | `inspected` | inspection of side B |
@@ -15,6 +16,7 @@ mod inspected;
 mod measured;
 mod rasterized_side;
 mod screen;
+mod shown;
 mod sides;
 
 use super::App;

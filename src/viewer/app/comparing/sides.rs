@@ -5,8 +5,8 @@ use crate::comparison::{Source, TracedSide};
 use crate::document::Document;
 use crate::opening::Loading;
 use glam::DVec3;
-use hitscope_core::Camera;
 use hitscope_core::obj::LoadError;
+use hitscope_core::{Aabb, Camera};
 use hitscope_lab::commands::default_thread_count;
 
 impl App {
@@ -80,6 +80,18 @@ impl App {
             0.0,
             ctx,
         ));
+    }
+
+    /// The box around side B in the coordinates of side A; `None` if side B shows the open scene or none.
+    pub(in crate::app) fn bounds_of_other_scene(&self) -> Option<Aabb> {
+        let is_shown = self.is_comparing() && self.compared.source.is_other_scene();
+        let document = self.compared.document().filter(|_| is_shown)?;
+        let by = (document.origin() - self.open.document.origin()).as_vec3();
+        let Aabb { min, max } = document.loaded.scene.bounds_with_elements();
+        Some(Aabb {
+            min: min + by,
+            max: max + by,
+        })
     }
 
     /// A camera of side A in the coordinates of another document.

@@ -240,15 +240,16 @@ impl App {
         self.picked.inspecting.picks.shows_walk ^= true;
     }
 
-    /// Writes the picks to a file: a table if its name ends in `.csv`, else JSON.
+    /// Writes the picks to a file, whose extension is the format: JSON, or comma-separated values.
     pub(in crate::app) fn export_picks(&mut self, path: &Path, ctx: &egui::Context) {
-        let is_table = path
-            .extension()
-            .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
-        let text = if is_table {
-            self.picks_as_csv()
-        } else {
-            self.picks_as_json()
+        let extension = path.extension().unwrap_or_default();
+        let text = match extension.to_ascii_lowercase().to_str() {
+            Some("csv") => self.picks_as_csv(),
+            Some("json") => self.picks_as_json(),
+            _ => {
+                let name = shown(path);
+                return self.error(format!("{name}: the extension must be .json or .csv"));
+            }
         };
         let file = path.to_owned();
         let write = move || {
