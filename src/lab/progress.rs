@@ -169,14 +169,20 @@ fn bar_text(Status { label, part }: &Status, elapsed: Duration) -> String {
     let full = (part * BAR_WIDTH as f64) as usize;
     let (full, empty) = ("#".repeat(full), "-".repeat(BAR_WIDTH - full));
     let mut text = format!("{label}  [{full}{empty}] {:3.0} %", (100.0 * part).floor());
-    // Too early for an estimate before.
-    if part > 0.0 && elapsed >= DELAY {
-        let left = elapsed.as_secs_f64() * (1.0 - part) / part;
-        if let Ok(left) = Duration::try_from_secs_f64(left) {
-            text += &format!("  {} left", seconds_text(left));
-        }
+    if let Some(left) = time_left(part, elapsed) {
+        text += &format!("  {} left", seconds_text(left));
     }
     text
+}
+
+/// The time until work is done that has done a part of it, from 0 to 1, in a time, if it goes on at that speed; `None` while
+/// it is too early for an estimate.
+pub fn time_left(part: f64, elapsed: Duration) -> Option<Duration> {
+    if part <= 0.0 || elapsed < DELAY {
+        return None;
+    }
+    let left = elapsed.as_secs_f64() * (1.0 - part) / part;
+    Duration::try_from_secs_f64(left).ok()
 }
 
 /// A duration in whole seconds, as in `2m 5s`.

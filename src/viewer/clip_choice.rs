@@ -48,7 +48,7 @@ impl Extent {
     /// so half of its pixels would be clipped.
     #[must_use]
     pub fn with_margin(&self) -> Self {
-        /// Part of the longest side. It far exceeds the rounding, and can't be seen.
+        /// Part of the longest side. It far exceeds the rounding, and can't be seen. The tooltip of `clip-fit` names it.
         const MARGIN: f64 = 1e-3;
         let margin = MARGIN * (self.max - self.min).max_element();
         Self {

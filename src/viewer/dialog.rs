@@ -71,7 +71,7 @@ impl FileDialog {
         }
     }
 
-    /// The path with which a path field starts.
+    /// The initial path of the path field: the suggested path, or else the last one entered.
     fn first_path(&self) -> Option<PathBuf> {
         self.suggested.clone().or_else(|| self.entered.clone())
     }

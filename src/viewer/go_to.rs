@@ -31,7 +31,7 @@ impl GoToBox {
 
     /// Opens the box with a problem.
     pub fn refuse(&mut self, problem: String) {
-        (self.is_open, self.problem) = (true, Some(sentence(problem)));
+        (self.is_open, self.problem) = (true, Some(problem));
     }
 
     /// Shows the box if it is open. Returns the element once it is entered.
@@ -83,17 +83,6 @@ impl GoToBox {
     }
 }
 
-/// A message that starts with a capital letter, unless it starts with the name of a file.
-fn sentence(mut message: String) -> String {
-    let first = message.split_whitespace().next().unwrap_or_default();
-    if first.bytes().all(|byte| byte.is_ascii_lowercase())
-        && let Some(letter) = message.get_mut(..1)
-    {
-        letter.make_ascii_uppercase();
-    }
-    message
-}
-
 /// Selects the text of a field, so that typing replaces it.
 fn select_all(ctx: &egui::Context, field: egui::Id, text: &str) {
     let mut state = TextEdit::load_state(ctx, field).unwrap_or_default();
@@ -121,18 +110,6 @@ fn element(text: &str) -> Result<Element, String> {
 mod tests {
     use super::*;
     use glam::DVec3;
-
-    #[test]
-    fn messages_start_with_a_capital_letter_and_files_keep_their_names() {
-        for (message, shown) in [
-            ("neither a face nor", "Neither a face nor"),
-            ("mesh.obj: not found", "mesh.obj: not found"),
-            ("“x” is no element", "“x” is no element"),
-            ("", ""),
-        ] {
-            assert_eq!(sentence(message.to_owned()), shown);
-        }
-    }
 
     #[test]
     fn elements_are_named_as_people_type_them() {

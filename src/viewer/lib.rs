@@ -1,4 +1,4 @@
-//! hitscope's viewer: a progressively ray-traced picture with the mesh's lines over it, and inspection of clicked
+//! hitscope's viewer: a progressively ray-traced picture with an overlay of lines, and inspection of clicked
 //! pixels.
 //!
 //! | module | contents |
@@ -19,7 +19,7 @@
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
 //! | [`task`], [`retired`] | background tasks; large data that they free |
 //! | [`toasts`], [`log`], [`log_links`] | short messages about results; all messages, and the links in them |
-//! | [`overlay`], [`gpu`] | drawing the picture and the lines over it |
+//! | [`overlay`], [`gpu`] | drawing the picture and its overlay |
 //! | [`picks`], [`measuring`], [`go_to`] | the list of picks; measurements between them; going to an element |
 //! | [`face_lookup`], [`flaw_place`] | the picked face in its file; the place of a flaw |
 //! | [`numbers`], [`theme`] | number formatting; colours |
@@ -99,6 +99,7 @@ extern crate self as hitscope;
 )]
 mod harness;
 
+// glibc keeps much of the memory of closed files; see Cargo.toml.
 #[cfg(target_os = "linux")]
 #[global_allocator]
 static ALLOCATOR: tikv_jemallocator::Jemalloc = tikv_jemallocator::Jemalloc;

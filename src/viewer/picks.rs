@@ -14,8 +14,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Snapping {
-    /// Nothing: the point is the hit.
-    Off,
+    /// The face that was hit: the point is the hit.
+    #[serde(alias = "off")]
+    Face,
     /// The nearest vertex or edge of the face that was hit, if the picture shows one near the click.
     #[default]
     Automatic,
@@ -28,7 +29,11 @@ pub enum Snapping {
 impl Snapping {
     /// All modes with their titles and descriptions.
     pub const ALL: [(Self, &'static str, &'static str); 4] = [
-        (Self::Off, "Off", "Picks the point that the ray hits"),
+        (
+            Self::Face,
+            "Face",
+            "Picks the point on the face that the ray hits",
+        ),
         (
             Self::Automatic,
             "Automatic",
@@ -50,7 +55,7 @@ impl Snapping {
         /// As near as a pointer is aimed without care, in pixels.
         const NEAR_PX: f64 = 8.0;
         match self {
-            Self::Off => SnapReach::NONE,
+            Self::Face => SnapReach::NONE,
             Self::Automatic => SnapReach::within(NEAR_PX),
             Self::Vertex => SnapReach::VERTEX,
             Self::Edge => SnapReach::EDGE,
@@ -279,7 +284,7 @@ mod tests {
             PickedPoint::of_pixel(&scene, &*intersector, Shading::Flat, place, snapping)
                 .expect("a hit")
         };
-        assert_eq!(of(Snapping::Off).snapped_to, "face");
+        assert_eq!(of(Snapping::Face).snapped_to, "face");
         assert_eq!(of(Snapping::Edge).snapped_to, "edge");
         let vertex = of(Snapping::Vertex);
         assert_eq!(of(Snapping::Automatic), vertex);

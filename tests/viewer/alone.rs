@@ -28,7 +28,7 @@ pub fn alone(name: &str, test: impl FnOnce(&Path)) {
         .env("XDG_DATA_HOME", folder.path())
         .env("XDG_CONFIG_HOME", folder.path())
         .env_remove("DBUS_SESSION_BUS_ADDRESS")
-        // The allocator returns freed memory to the system at once.
+        // Makes jemalloc return freed memory to the system at once.
         .env("MALLOC_CONF", "dirty_decay_ms:0,muzzy_decay_ms:0")
         .output()
         .expect("started");

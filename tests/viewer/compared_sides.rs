@@ -156,7 +156,11 @@ fn picks_of_both_sides_are_listed_and_measured() {
     });
     window.run_steps(20);
     window.get_by_label("Pick 2 on B");
-    assert!(window.query_by_label("Two hits have a distance.").is_none());
+    assert!(
+        window
+            .query_by_label("Distances need two picks that hit a surface.")
+            .is_none()
+    );
     // The pick stays while there is no side B.
     press(&mut window, Key::C);
     wait(&mut window, "no side B", |app| {

@@ -99,7 +99,7 @@ fn the_largest_picture_needs_little_memory_which_cancel_frees() {
         window.run_steps(4);
         enter(&mut window, "Samples", 1);
         click(&mut window, "PNG");
-        click(&mut window, "With the overlay");
+        click(&mut window, "Include overlay");
 
         let before = memory_mb().unwrap_or(0.0);
         click(&mut window, "Render");
@@ -110,10 +110,12 @@ fn the_largest_picture_needs_little_memory_which_cancel_frees() {
         });
         let most = most.get();
         assert!(most - before < 600.0, "{before} MB before, {most} MB");
-        // A closed dialog leaves the progress and the button in the window.
+        // After the dialog is closed, the window shows the progress and, after a second, a Cancel button.
         press(&mut window, Key::Escape);
-        std::thread::sleep(std::time::Duration::from_secs(1));
-        window.run_steps(2);
+        while window.query_by_label("Cancel").is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(20));
+            window.step();
+        }
         let threads = thread_count();
         window.get_by_label_contains("Rendering a picture");
         click(&mut window, "Cancel");

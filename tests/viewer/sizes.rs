@@ -97,7 +97,7 @@ fn the_side_panel_has_its_width_again_after_narrow_windows() {
     window.set_size(vec2(800.0, 600.0));
     window.run_steps(3);
     assert_eq!(width(&window), before);
-    // As 1280 pixels at 200 %.
+    // A window of 1280 × 800 pixels at 200 %.
     window.set_size(vec2(640.0, 400.0));
     window.run_steps(3);
     assert!(width(&window) >= 0.45 * 640.0, "{}", width(&window));

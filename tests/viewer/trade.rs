@@ -28,7 +28,7 @@ fn the_trade_tab_measures_every_kernel_and_its_rows_select_one() {
         .iter()
         .find(|row| row.kernel == "exact")
         .expect("a row");
-    assert_eq!(exact.missed + exact.false_hits + exact.other_triangle, 0);
+    assert_eq!(exact.wrong_count(), 0);
 
     window.run_steps(2);
     let kept = window.state().settings().kernel.clone();

@@ -74,7 +74,7 @@ fn a_copied_view_is_pasted_as_the_same_rays() {
         press(&mut window, Key::Num5);
         press(&mut window, Key::Num7);
         assert_ne!(camera(&window), before);
-        // A button that has the focus doesn't keep the text.
+        // A focused button doesn't prevent pasting.
         window.get_by_label("Wireframe").focus();
         window.run_steps(2);
         paste(&mut window, &text);

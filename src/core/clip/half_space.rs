@@ -4,6 +4,13 @@ use super::{ClipError, KeptInterval};
 use crate::ray::f32_below;
 use glam::DVec3;
 
+/// The thickness of a plane, relative to the sum of the products whose sum is a distance to it: 2⁻²⁴ for the rounding of
+/// f32 vertices, and 15 times as much for t of the kernels that round.
+const THICKNESS: f64 = 16.0 / (1 << 24) as f64;
+/// The most that the reach of a ray adds, relative to its origin's distance to the plane. It matters for rays that are
+/// almost parallel to the plane, whose t has no bound.
+const MOST_OF_REACH: f64 = 1.0 / 1024.0;
+
 /// One side of a plane: `normal·p ≤ offset`, or `<` if the plane itself belongs to the other side; see the
 /// [module](super).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,27 +76,29 @@ impl HalfSpace {
 
     /// Whether a point is on this side. A point with a NaN isn't.
     pub fn keeps(&self, point: DVec3) -> bool {
-        self.keeps_distance(self.offset - self.normal.dot(point))
+        self.keeps_distance(self.distance(point))
     }
 
-    /// The offset at which rays from an origin are cut: that of the plane's face on the side that doesn't own the plane.
-    /// The opposite side computes the same number with the opposite sign.
+    /// The offset at which rays from `origin` are cut. It is the plane's offset, moved by the plane's thickness away from
+    /// the side that owns the plane.
     ///
     /// ```text
-    ///   owner │▓▓▓▓▓│ other side          plane = offset, ▓ = thickness
-    ///       offset  here
+    ///   owner │▓▓▓▓▓│ other side          │ left = offset, ▓ = thickness, │ right = returned offset
     /// ```
     pub fn offset_from(&self, origin: DVec3) -> f64 {
-        /// Half ulp of a vertex and some ulps of t, relative to the numbers that they are computed from.
-        const THICKNESS: f64 = 1.0 / (1 << 20) as f64;
         let size = self.normal.abs().dot(origin.abs()) + self.offset.abs();
-        let thickness = THICKNESS * size;
-        self.offset
-            + if self.has_plane {
-                thickness
-            } else {
-                -thickness
-            }
+        self.offset + self.towards_other_side(THICKNESS * size)
+    }
+
+    /// The distance of a point to the plane's boundary in lengths of the normal, positive on this side. The opposite side
+    /// computes the same number with the opposite sign.
+    fn distance(&self, point: DVec3) -> f64 {
+        self.offset_from(point) - self.normal.dot(point)
+    }
+
+    /// A length along the normal that leads from the owner of the plane to the other side.
+    fn towards_other_side(&self, length: f64) -> f64 {
+        if self.has_plane { length } else { -length }
     }
 
     fn keeps_distance(&self, distance: f64) -> bool {
@@ -99,9 +108,11 @@ impl HalfSpace {
     /// The t of a ray on this side; `None` if there are none, or for a NaN. The origin decides about a ray that is
     /// parallel to the plane.
     pub(super) fn kept(&self, origin: DVec3, dir: DVec3) -> Option<KeptInterval> {
-        let distance = self.offset_from(origin) - self.normal.dot(origin);
-        let speed = self.normal.dot(dir);
-        let t = distance / speed;
+        let (distance, speed) = (self.distance(origin), self.normal.dot(dir));
+        // At the hit, positions are rounded in proportion to the ray's reach.
+        let reach = self.normal.abs().dot((distance / speed * dir).abs());
+        let thickness = (THICKNESS * reach).min(MOST_OF_REACH * distance.abs());
+        let t = (distance + self.towards_other_side(thickness)) / speed;
         if speed > 0.0 && !t.is_nan() {
             // The ray leaves this side.
             let last = last_before(t, self.has_plane);
@@ -118,21 +129,6 @@ impl HalfSpace {
         } else {
             let is_parallel = speed == 0.0 && self.keeps_distance(distance);
             is_parallel.then_some(KeptInterval::ALL)
-        }
-    }
-
-    /// The t of a line on this side, with the plane, in f64.
-    pub(super) fn crossed(&self, origin: DVec3, dir: DVec3) -> Option<[f64; 2]> {
-        let distance = self.offset - self.normal.dot(origin);
-        let speed = self.normal.dot(dir);
-        let t = distance / speed;
-        if speed > 0.0 {
-            Some([f64::NEG_INFINITY, t])
-        } else if speed < 0.0 {
-            Some([t, f64::INFINITY])
-        } else {
-            let is_kept = speed == 0.0 && distance >= 0.0;
-            is_kept.then_some([f64::NEG_INFINITY, f64::INFINITY])
         }
     }
 }

@@ -8,8 +8,8 @@
 //!
 //! The interval's ends are computed in f64, with the same operations for either side of a plane, and rounded down to
 //! f32. The clip then decides by the f32 t that a kernel reports: one side keeps hits up to the rounded end, the other
-//! one those behind it. A plane is as thick as the errors of t and of f32 positions, and all of it belongs to the side
-//! that owns the plane: of a face in the plane, that side shows all, and the other one nothing.
+//! one those behind it, so each hit is kept by exactly one side. A plane is as thick as the errors of t and of f32
+//! positions. The side that owns the plane shows a face in it completely; the other side doesn't show it.
 
 mod half_space;
 
@@ -128,16 +128,6 @@ impl Clip {
             ..*ray
         };
         (ray.t_min < ray.t_max).then_some(CutRay { ray, kept })
-    }
-
-    /// The t from `t[0]` to `t[1]` of the points `origin + t·dir` that are kept, for lines that are drawn; `None` if
-    /// there are none.
-    pub fn cut_line(&self, origin: DVec3, dir: DVec3, t: [f64; 2]) -> Option<[f64; 2]> {
-        let kept = self.0.iter().try_fold(t, |[start, end], part| {
-            let [first, last] = part.crossed(origin, dir)?;
-            Some([start.max(first), end.min(last)])
-        });
-        kept.filter(|[start, end]| start <= end)
     }
 }
 

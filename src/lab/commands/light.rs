@@ -266,12 +266,13 @@ fn policy_names() -> impl clap::builder::TypedValueParser<Value = String> {
     PossibleValuesParser::new(SPAWN_POLICIES.iter().map(|policy| policy.name)).map(|name| name)
 }
 
-/// `0.5`.
+/// A number of surfaces, such as `3`.
 fn parse_depth(text: &str) -> Result<u32, String> {
-    let expected = || "expected a number of surfaces; --depth-map writes distances to a file";
-    text.parse().map_err(|_| expected().to_owned())
+    let message = "expected a number of surfaces; --depth-map writes distances to a file";
+    text.parse().map_err(|_| message.to_owned())
 }
 
+/// `0.5`.
 fn parse_distance(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(radii) if radii > 0.0 => Ok(radii),
@@ -284,7 +285,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn distances_are_read_or_refused_with_a_reason() {
+    fn depths_and_distances_are_read_or_refused_with_a_reason() {
+        assert_eq!(parse_depth("3"), Ok(3));
+        let message = parse_depth("depth.exr").expect_err("no number");
+        assert!(message.contains("--depth-map"), "{message}");
         assert_eq!(parse_distance("0.5"), Ok(0.5));
         for bad in ["0", "-1", "nan", ""] {
             assert!(parse_distance(bad).is_err(), "{bad}");

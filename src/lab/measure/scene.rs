@@ -82,8 +82,8 @@ pub struct SceneRow {
 }
 
 impl SceneRow {
-    /// All wrong decisions.
-    pub fn wrong(&self) -> u64 {
+    /// The number of wrong decisions.
+    pub fn wrong_count(&self) -> u64 {
         self.missed + self.false_hits + self.other_triangle
     }
 }

@@ -46,6 +46,13 @@ pub struct Rates {
     pub random: f64,
 }
 
+impl Rates {
+    /// The mean over the workloads.
+    pub fn mean(&self) -> f64 {
+        (self.primary + self.bounce + self.random) / 3.0
+    }
+}
+
 /// The default camera at 1280×720.
 pub fn default_camera(scene: &Scene) -> Camera {
     let size = UVec2::new(1280, 720);

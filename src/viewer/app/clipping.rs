@@ -69,14 +69,22 @@ impl App {
 
     /// Clips by the plane that touches the surface at the marked point, and removes the side of the camera.
     pub(crate) fn clip_at_pick(&mut self) {
-        /// Part of the scene's longest side. Exceeds the thickness of a plane, so that the surface itself stays.
-        const BEFORE: f64 = 1e-5;
+        /// Distance of the plane to the surface, relative to the sizes that determine the thickness of a plane: it is
+        /// some ten times as large, so that the surface itself stays.
+        const GAP: f64 = 1e-5;
+        let Some((point, normal)) = self.marked_surface() else {
+            return;
+        };
         let extent = self.extent();
-        let before = BEFORE * (extent.max - extent.min).max_element();
-        if let Some((point, normal)) = self.marked_surface() {
-            let point = point + before * normal.normalize_or_zero();
-            self.seen.settings.clip.use_plane(normal, point);
-        }
+        let eye = self
+            .picked
+            .pick
+            .as_ref()
+            .map(|pick| pick.camera.exact_eye());
+        let eye = eye.unwrap_or_default() + self.open.document.origin();
+        let size = (extent.max - extent.min).max_element() + (eye - point).length();
+        let plane_point = point + GAP * size * normal.normalize_or_zero();
+        self.seen.settings.clip.use_plane(normal, plane_point);
     }
 
     /// The marked point in the file's coordinates, and the geometric normal there, towards the picked ray's origin.

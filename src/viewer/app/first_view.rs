@@ -40,7 +40,7 @@ impl App {
         match self.view_of_file() {
             Some(view) if view != self.seen.turntable => self.use_view(view),
             _ if self.shows_nothing() => self.use_default_view(),
-            _ => self.seen.turntable = self.framed(),
+            _ => self.seen.turntable = self.framed(self.bounds_of_sides()),
         }
     }
 
@@ -59,27 +59,32 @@ impl App {
             return;
         }
         let is_files_view = self.view_of_file() == Some(self.seen.turntable);
-        let is_framed = self.framed() == self.seen.turntable;
+        let of_scene = self.open.document.loaded.scene.bounds_with_elements();
+        let framed = [of_scene, self.bounds_of_sides()]
+            .into_iter()
+            .find(|bounds| self.framed(*bounds) == self.seen.turntable);
         self.shown.resolution = resolution;
         if self.seen.is_unframed {
             self.use_first_camera();
         } else if let (true, Some(view)) = (is_files_view, self.view_of_file()) {
             self.use_view(view);
             self.history.absorb();
-        } else if is_framed && self.framed() != self.seen.turntable {
-            self.seen.turntable = self.framed();
+        } else if let Some(view) = framed.map(|bounds| self.framed(bounds))
+            && view != self.seen.turntable
+        {
+            self.seen.turntable = view;
             self.history.absorb();
         }
     }
 
-    /// The camera, moved so that it frames the scene.
-    fn framed(&self) -> Turntable {
+    /// The camera, moved so that it frames these bounds.
+    fn framed(&self, bounds: Aabb) -> Turntable {
         let mut turntable = self.seen.turntable;
-        turntable.frame(self.bounds_of_sides(), self.shown.resolution);
+        turntable.frame(bounds, self.shown.resolution);
         turntable
     }
 
-    /// The box around all that is shown: the open scene, and that of side B of a comparison.
+    /// The bounds of everything shown: the open scene and, in a comparison, another scene on side B.
     fn bounds_of_sides(&self) -> Aabb {
         let bounds = self.open.document.loaded.scene.bounds_with_elements();
         let other = self.bounds_of_other_scene();

@@ -33,7 +33,8 @@ struct End {
 }
 
 impl App {
-    /// Shows the gizmo if it is on and the picture has room for it. A magnified picture has numbers in its place.
+    /// Shows the gizmo if it is on and the picture has room for it. It is hidden while the picture is magnified, because it
+    /// would cover pixel values.
     pub(super) fn gizmo_ui(&mut self, ui: &egui::Ui, canvas: Canvas) {
         let rect = canvas.rect;
         let is_small = rect.size().min_elem() < SMALLEST_PICTURE;

@@ -188,8 +188,10 @@ pub(crate) struct Shown {
     pub magnifier: Magnifier,
     /// The side panel's width in the last frame.
     pub panel_width: f32,
-    /// The side panel's greatest width in the last frame, which depends on the window's width.
-    pub panel_limit: f32,
+    /// Width of the window when the panel's width was reset, in points.
+    pub panel_room: f32,
+    /// Width of the panel since it last changed; `None` after a reset.
+    pub settled_panel_width: Option<f32>,
     /// UI thread times per frame.
     pub ui_times: Times,
     pub first_picture: FirstPicture,
@@ -208,7 +210,8 @@ impl Shown {
             fit_to_screen: FitToScreen::default(),
             magnifier: Magnifier::default(),
             panel_width: 0.0,
-            panel_limit: 0.0,
+            panel_room: 0.0,
+            settled_panel_width: None,
             ui_times: Times::default(),
             first_picture: FirstPicture::new(began),
         }

@@ -12,6 +12,7 @@ use hitscope_core::obj::shown;
 use hitscope_core::plan::{MAX_SAMPLES, Plan};
 use hitscope_core::render::Job;
 use hitscope_lab::commands::require_picture_memory;
+use hitscope_lab::progress::{seconds_text, time_left};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -68,8 +69,7 @@ impl PictureDialog {
         std::mem::take(&mut self.is_open)
     }
 
-    /// The time since the picture began to be rendered, if the dialog is closed; `None` if it shows the progress, or no
-    /// picture is being rendered.
+    /// Time since rendering began; `None` if the dialog is open or no picture is being rendered.
     pub fn hidden_elapsed(&self) -> Option<Duration> {
         let rendering = self.rendering.as_ref().filter(|_| !self.is_open)?;
         Some(rendering.task.elapsed())
@@ -125,9 +125,9 @@ impl PictureDialog {
             ui.radio_value(&mut self.format, Format::Png, "PNG")
                 .on_hover_text("As on the screen, 8 bits per channel");
             ui.radio_value(&mut self.format, Format::Exr, "EXR")
-                .on_hover_text("Light as numbers, without exposure and without overlay");
+                .on_hover_text("Linear radiance, without exposure or overlay");
         });
-        let lines = egui::Checkbox::new(&mut self.has_overlay, "With the overlay");
+        let lines = egui::Checkbox::new(&mut self.has_overlay, "Include overlay");
         ui.add_enabled(self.format == Format::Png, lines);
         let background = egui::Checkbox::new(&mut self.is_transparent, "Transparent background");
         ui.add_enabled(!compares, background)
@@ -142,21 +142,13 @@ impl PictureDialog {
     }
 }
 
-/// The rendered part and the time left, such as `12 %, about 5 min left`.
+/// The rendered part and the time left, such as `12 %, 5m 20s left`.
 fn progress_text(part: f32, elapsed: Duration) -> String {
-    /// A smaller part, or a shorter time, says little about the rest.
-    const FIRST: (f32, Duration) = (0.005, Duration::from_secs(2));
-    let percent = format!("{:.0} %", 100.0 * part);
-    if part < FIRST.0 || elapsed < FIRST.1 {
-        return percent;
+    let percent = format!("{:.0} %", (100.0 * part).floor());
+    match time_left(part.into(), elapsed) {
+        Some(left) => format!("{percent}, {} left", seconds_text(left)),
+        None => percent,
     }
-    let secs = elapsed.as_secs_f32() * (1.0 / part - 1.0);
-    let left = match secs {
-        ..90.0 => format!("{secs:.0} s"),
-        ..5400.0 => format!("{:.0} min", secs / 60.0),
-        _ => format!("{:.0} h", secs / 3600.0),
-    };
-    format!("{percent}, about {left} left")
 }
 
 impl App {
@@ -264,12 +256,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_time_left_is_that_of_the_rest_at_the_same_speed() {
+    fn the_estimate_of_the_time_left_assumes_constant_speed() {
         let text = |part, secs| progress_text(part, Duration::from_secs(secs));
-        assert_eq!(text(0.001, 60), "0 %");
-        assert_eq!(text(0.5, 1), "50 %");
-        assert_eq!(text(0.5, 30), "50 %, about 30 s left");
-        assert_eq!(text(0.25, 100), "25 %, about 5 min left");
-        assert_eq!(text(0.01, 600), "1 %, about 16 h left");
+        assert_eq!(text(0.0, 60), "0 %");
+        assert_eq!(text(0.5, 0), "50 %");
+        assert_eq!(text(0.5, 30), "50 %, 30s left");
+        assert_eq!(text(0.25, 100), "25 %, 5m left");
+        assert_eq!(text(0.999, 1000), "99 %, 2s left");
     }
 }

@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 pub(super) enum Format {
     /// 8 bits per channel, as on the screen. Rendered in strips.
     Png,
-    /// Light as numbers, without overlay. Rendered whole.
+    /// Linear radiance, without overlay. Rendered whole.
     Exr,
 }
 

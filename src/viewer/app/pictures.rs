@@ -69,10 +69,12 @@ impl App {
             on_screen.filter(|((_, camera), picture)| camera.resolution() == picture.size);
         let (Some(((scene, camera), picture)), Some(gpu)) = (matching, frame.wgpu_render_state())
         else {
-            return self.refuse("The picture isn't ready yet");
+            let reason = self.lacks_shown_picture();
+            return self.refuse(reason.unwrap_or("The picture isn't ready yet"));
         };
         let scale = ctx.pixels_per_point();
-        let input = has_overlay.then(|| self.overlay_input(&scene, camera, scale));
+        let is_overlaid = has_overlay && picture.overlaid_columns > 0;
+        let input = is_overlaid.then(|| self.overlay_input(&scene, camera, scale));
         let overlays = self.seen.settings.overlays.clone();
         let (device, queue) = (gpu.device.clone(), gpu.queue.clone());
         let work = move || {
@@ -81,9 +83,10 @@ impl App {
                 let bare = pixels.clone();
                 offscreen::draw_onto(&mut pixels, (&device, &queue), &input, &overlays)
                     .map_err(|error| error.to_string())?;
+                let overlaid = picture.overlaid_columns as usize;
                 let rows = pixels.chunks_mut(size.x as usize);
                 for (row, bare) in rows.zip(bare.chunks(size.x as usize)) {
-                    row[picture.overlaid..].copy_from_slice(&bare[picture.overlaid..]);
+                    row[overlaid..].copy_from_slice(&bare[overlaid..]);
                 }
             }
             match target {

@@ -6,8 +6,7 @@ use crate::harness::{app_on_own_device, press, wait};
 use crate::overlay::wireframe::WIREFRAME;
 use egui::{Key, vec2};
 
-const MESSAGE: &str =
-    "the graphics adapter has no memory left for the picture or the lines over it";
+const MESSAGE: &str = "the graphics adapter has no memory left for the picture or its overlay";
 
 #[test]
 fn lines_without_memory_are_turned_off_and_can_be_turned_on_when_there_is_some() {

@@ -20,18 +20,18 @@ impl App {
     pub(super) fn panel_ui(&mut self, ui: &mut egui::Ui, commands: &Commands) {
         let mut is_expanded = self.preferences.shows_panel;
         let (narrowest, widest) = (*PANEL_WIDTHS.start(), *PANEL_WIDTHS.end());
-        // In a narrow window, the panel leaves some room for the picture.
-        let limit = (ui.available_width() - NARROWEST_PICTURE).clamp(MIN_PANEL_WIDTH, widest);
-        // Unless the user makes it wider, it leaves half of the window.
-        let usual = self.preferences.panel_width.min(0.5 * ui.available_width());
-        if self.shown.panel_limit != limit {
+        let available = ui.available_width();
+        // In a narrow window, the panel leaves some room for the picture; by default half of the window.
+        let limit = (available - NARROWEST_PICTURE).clamp(MIN_PANEL_WIDTH, widest);
+        let default = self.preferences.panel_width.min(0.5 * available);
+        if self.shown.panel_room != available {
             // egui would keep the width of the narrowest window.
-            self.shown.panel_limit = limit;
+            (self.shown.panel_room, self.shown.settled_panel_width) = (available, None);
             let id = ui.scope_id().with(PANEL);
             ui.data_mut(|data| data.remove::<PanelState>(id));
         }
         let shown = egui::Panel::right(PANEL)
-            .default_size(usual)
+            .default_size(default)
             .size_range(narrowest.min(limit)..=limit)
             .show_collapsible(ui, &mut is_expanded, |ui| {
                 tabs_ui(ui, commands);
@@ -44,9 +44,13 @@ impl App {
         if let Some(shown) = shown {
             // The width changes from frame to frame while the panel slides in or out.
             let width = shown.response.rect.width();
-            let last = std::mem::replace(&mut self.shown.panel_width, width);
-            if last == width && width != usual && width < limit && PANEL_WIDTHS.contains(&width) {
-                self.preferences.panel_width = width;
+            let is_settled = std::mem::replace(&mut self.shown.panel_width, width) == width;
+            if is_settled && self.shown.settled_panel_width != Some(width) {
+                // The first width in a window is the default; a later one is the user's.
+                let is_own = self.shown.settled_panel_width.replace(width).is_some();
+                if is_own && width < limit && PANEL_WIDTHS.contains(&width) {
+                    self.preferences.panel_width = width;
+                }
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Long-running background work: it is shown, and the user can cancel it.
 //!
-//! Loading and the dialog *Render a picture* have their own progress bars.
+//! Loading has its own progress bar, as has the dialog *Render a picture* while it is open.
 
 use super::App;
 use crate::settings::Settings;

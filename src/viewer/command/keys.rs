@@ -45,8 +45,8 @@ fn modifier_count(key: &KeyboardShortcut) -> u32 {
     u32::from(alt) + u32::from(shift) + u32::from(ctrl || mac_cmd || command)
 }
 
-/// The commands of the keys pressed since the last frame; none while a text field has the focus. Another control that
-/// has the focus gets the plain keys, such as the space bar. Escape is left to an open drop-down, which egui then closes.
+/// The commands of the keys pressed since the last frame; none while a text field has the focus. Any other control with
+/// the focus keeps plain keys such as Space. Escape is left to an open drop-down, which egui then closes.
 pub fn pressed(ctx: &egui::Context) -> Vec<&'static Command> {
     if ctx.text_edit_focused() {
         return Vec::new();
@@ -66,12 +66,17 @@ pub fn pressed(ctx: &egui::Context) -> Vec<&'static Command> {
     })
 }
 
-/// Whether a control may use a key: it has neither Ctrl nor Alt, and isn't a function key.
+/// Whether a key has no modifier but Shift and isn't a function key, so that a focused control may use it.
 fn is_plain(key: &KeyboardShortcut) -> bool {
-    let name = key.logical_key.name();
-    let is_function_key =
-        name.len() > 1 && name.starts_with('F') && name[1..].parse::<u8>().is_ok();
-    !is_function_key && !key.modifiers.command && !key.modifiers.ctrl && !key.modifiers.alt
+    let is_function_key = (Key::F1..=Key::F35).contains(&key.logical_key);
+    let without_shift = KeyboardShortcut {
+        modifiers: Modifiers {
+            shift: false,
+            ..key.modifiers
+        },
+        ..*key
+    };
+    !is_function_key && modifier_count(&without_shift) == 0
 }
 
 /// The text that was pasted since the last frame, unless a text field has the focus.
@@ -131,6 +136,20 @@ mod tests {
                     a.logical_key == b.logical_key && b.modifiers.matches_logically(a.modifiers);
                 assert!(!is_shadowed, "{a:?} shadows {b:?}");
             }
+        }
+    }
+
+    #[test]
+    fn a_focused_control_keeps_plain_keys_and_leaves_those_with_ctrl_and_function_keys() {
+        for (shortcut, expected) in [
+            (key(Key::Space), true),
+            (shift(Key::X), true),
+            (ctrl(Key::V), false),
+            (ctrl_shift(Key::V), false),
+            (key(Key::F12), false),
+            (key(Key::F), true),
+        ] {
+            assert_eq!(is_plain(&shortcut), expected, "{shortcut:?}");
         }
     }
 

@@ -15,7 +15,7 @@ const MIN_HEIGHT: f32 = 80.0;
 pub fn menu_bar_ui(ui: &mut egui::Ui, commands: &Commands) {
     let frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(6, 1));
     Panel::top("menu bar").frame(frame).show(ui, |ui| {
-        // In a narrow window the bar scrolls.
+        // A narrow window scrolls the menu bar; a scroll bar would cover it.
         ScrollArea::horizontal()
             .scroll_bar_visibility(ScrollBarVisibility::AlwaysHidden)
             .show(ui, |ui| {

@@ -68,7 +68,7 @@ pub(super) const ROWS: &[Command] = &[
         name: "export-picks",
         keys: &[ctrl(Key::E)],
         title: "Export picks",
-        tooltip: "Writes the list of picks to a file: a table if its name ends in .csv, else JSON",
+        tooltip: "Writes the list of picks to a JSON or CSV file; the extension selects the format",
         place: LIST,
         is_on: None,
         obstacle: App::lacks_picks,

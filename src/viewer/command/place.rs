@@ -7,7 +7,7 @@ pub enum Menu {
     File,
     /// Undo and redo; the clipboard; cancelling.
     Edit,
-    /// The picture and the lines over it.
+    /// The picture and its overlay.
     View,
     /// The camera.
     Camera,

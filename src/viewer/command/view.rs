@@ -1,4 +1,4 @@
-//! The menu *View*: the picture and the lines over it.
+//! The menu *View*: the picture and its overlay.
 
 use super::keys::{key, shift};
 use super::{Command, Commands, Entry, Menu, Place, all, lacks_scene, none};

@@ -37,7 +37,7 @@ pub enum GpuError {
         granted: u64,
     },
     /// The GPU has no memory left.
-    #[error("the graphics adapter has no memory left for the picture or the lines over it")]
+    #[error("the graphics adapter has no memory left for the picture or its overlay")]
     OutOfMemory,
     /// The picture couldn't be read back.
     #[error("the overlay couldn't be read back: {0}")]

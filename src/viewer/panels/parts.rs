@@ -9,7 +9,7 @@ use hitscope_core::counts::counted;
 
 /// Height of the lowest list in points.
 const MIN_HEIGHT: f32 = 120.0;
-/// sRGB of the colour button of a part that has several materials and no custom colour.
+/// sRGB of the colour button of a part without a custom colour or a single material colour.
 const VARIOUS: [u8; 3] = [160; 3];
 
 /// Shows the tab; `picked` is the picked primitive.

@@ -184,7 +184,7 @@ fn measurements_ui(ui: &mut egui::Ui, view: &PicksView, commands: &Commands) {
     });
     commands.check_box_ui(ui, "thickness");
     if view.measurements.is_empty() {
-        ui.label(RichText::new("Two hits have a distance.").weak());
+        ui.label(RichText::new("Distances need two picks that hit a surface.").weak());
     } else {
         // One coordinate per line: the panel is narrower than three.
         let rows = view.measurements.iter().flat_map(|[name, value]| {

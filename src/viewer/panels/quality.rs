@@ -6,8 +6,7 @@ use crate::numbers::significant;
 use crate::quality::{MovingResolution, Quality};
 use crate::settings::Settings;
 use crate::trade::Trade;
-use egui::collapsing_header::CollapsingState;
-use egui::{ComboBox, RichText};
+use egui::{CollapsingHeader, ComboBox, RichText};
 use hitscope_lab::measure::statistics::rate_text;
 
 /// Shows the sets. Returns whether the user wants the kernels to be measured.
@@ -18,25 +17,24 @@ pub fn quality_ui(
     commands: &Commands,
 ) -> bool {
     let chosen = Quality::of(settings);
-    let id = ui.scope_id().with("quality details");
-    let mut details = CollapsingState::load_with_default_open(ui.ctx(), id, false);
-    ui.horizontal_wrapped(|ui| {
+    let custom = ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Quality").strong());
         for quality in commands.at(QUALITIES) {
             commands.choice_ui(ui, quality);
         }
-        let custom = ui
-            .selectable_label(chosen.is_none(), "Custom")
+        ui.selectable_label(chosen.is_none(), "Custom")
             .on_hover_text(
                 "Shows or hides the details. Selected while the settings match none of the levels",
-            );
-        if custom.clicked() {
-            details.toggle(ui);
-        }
+            )
+            .clicked()
     });
-    details
-        .show_header(ui, |ui| ui.label("Details"))
-        .body(|ui| details_ui(ui, settings));
+    let id = ui.scope_id().with("details are open");
+    let was_open = ui.data(|data| data.get_temp(id)).unwrap_or(false);
+    let details = CollapsingHeader::new("Details")
+        .id_salt("quality")
+        .open(custom.inner.then_some(!was_open))
+        .show(ui, |ui| details_ui(ui, settings));
+    ui.data_mut(|data| data.insert_temp(id, details.openness > 0.0));
     match trade.and_then(|trade| figures(settings, trade)) {
         Some(figures) => {
             ui.label(figures);
@@ -82,8 +80,8 @@ fn figures(settings: &Settings, trade: &Trade) -> Option<String> {
     let kernel = settings.kernel();
     let row = rows.iter().find(|row| trade.is_used(kernel, row))?;
     let speed = significant(row.speed.mrays_per_s.primary, 3);
-    let wrong = rate_text(row.wrong(), row.n);
+    let wrong = rate_text(row.wrong_count(), row.n);
     Some(format!(
-        "Here {speed} million camera rays per second on one thread, {wrong} wrong decisions per million rays"
+        "In this scene: {speed} million camera rays per second on one thread; wrong decisions per million rays: {wrong}"
     ))
 }

@@ -18,7 +18,7 @@ use hitscope_lab::measure::statistics::{rate_text, short};
 const COLUMNS_ABOUT: &str = "\
 speed: rays per second of CPU time relative to the fast kernel, averaged over camera, bounce and random rays; the \
 fast kernel is measured alternately with each other kernel to cancel out other load
-Mrays/s: million rays per second of CPU time: the mean of the fast kernel's rates, times the speed
+Mrays/s: million rays per second of CPU time; the speed times the mean rate of the fast kernel
 wrong/M: wrong decisions per million rays
 t ulps: 99th percentile of the error of t, in f32 ulps";
 
@@ -109,13 +109,10 @@ fn speed(row: &SceneRow) -> f64 {
     1.0 / row.speed.time_relative_to_fast.max(1e-3)
 }
 
-/// The mean of the workloads' rates of the kernel that speeds are relative to; 0 if there is none.
-fn mrays_per_s_of_fast(rows: &[SceneRow]) -> f64 {
+/// The mean rate of the fast kernel over all workloads, in million rays per second; `None` until it is measured.
+fn mrays_per_s_of_fast(rows: &[SceneRow]) -> Option<f64> {
     let fast = rows.iter().find(|row| row.info.tier == Some(Tier::Fast));
-    fast.map_or(0.0, |fast| {
-        let rates = fast.speed.mrays_per_s;
-        (rates.primary + rates.bounce + rates.random) / 3.0
-    })
+    fast.map(|fast| fast.speed.mrays_per_s.mean())
 }
 
 /// A row's place in the plot.
@@ -299,12 +296,12 @@ fn table_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut 
         });
 }
 
-fn cells(row: &SceneRow, mrays_per_s_of_fast: f64) -> [String; 5] {
+fn cells(row: &SceneRow, mrays_per_s_of_fast: Option<f64>) -> [String; 5] {
     [
         row.info.short_name().to_owned(),
         format!("{:.2}", speed(row)),
-        short(speed(row) * mrays_per_s_of_fast),
-        rate_text(row.wrong(), row.n),
+        mrays_per_s_of_fast.map_or_else(dash, |rate| short(speed(row) * rate)),
+        rate_text(row.wrong_count(), row.n),
         row.t_ulps.map_or_else(dash, |t| short(t.p99)),
     ]
 }

@@ -54,7 +54,7 @@ pub struct Part {
     pub key: PartKey,
     /// The number of its primitives.
     pub count: usize,
-    /// sRGB of the diffuse colour of its material; `None` if it has several, or the material has no colour.
+    /// sRGB of the material's diffuse colour; `None` if the part has several materials or its material has no colour.
     pub colour: Option<[u8; 3]>,
 }
 
@@ -81,15 +81,15 @@ impl PartList {
             let first = list.part_of.len() as u32;
             for primitive in first..first + group.count() as u32 {
                 let is_triangle = scene.is_triangle(primitive);
+                let material = scene.material(primitive);
                 // Groups of triangles and the other groups are numbered separately.
                 let key = match grouping {
                     Grouping::Groups if is_triangle => {
                         (0, scene.mesh().attributes().groups.index(primitive))
                     }
                     Grouping::Groups | Grouping::Shapes => (1, group_index),
-                    Grouping::Materials => (0, scene.material(primitive)),
+                    Grouping::Materials => (0, material),
                 };
-                let material = scene.material(primitive);
                 let number = *numbers.entry(key).or_insert_with(|| {
                     let mut part = part(scene, grouping, primitive);
                     let before = same.entry(part.key.clone()).or_default();

@@ -227,6 +227,12 @@ impl App {
         (x * canvas.pixels_per_point).round() / canvas.pixels_per_point
     }
 
+    /// The first column of side B in a picture of this width that isn't magnified.
+    pub(super) fn divider_column(&self, width: u32) -> u32 {
+        let column = (self.seen.comparison.divider * width as f32).round();
+        (column as u32).min(width)
+    }
+
     /// Counts a change of the traced side A on the screen.
     pub(in crate::app) fn note_change_of_a(&mut self, ctx: &egui::Context) {
         if self.rasterizes_a() {

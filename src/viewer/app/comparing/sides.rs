@@ -82,7 +82,7 @@ impl App {
         ));
     }
 
-    /// The box around side B in the coordinates of side A; `None` if side B shows the open scene or none.
+    /// The bounds of side B's scene in the coordinates of side A; `None` unless side B shows another scene.
     pub(in crate::app) fn bounds_of_other_scene(&self) -> Option<Aabb> {
         let is_shown = self.is_comparing() && self.compared.source.is_other_scene();
         let document = self.compared.document().filter(|_| is_shown)?;

@@ -202,18 +202,19 @@ impl Picks {
 
     /// The hit of a pick's ray; `None` for a miss, and until the ray is traced.
     pub fn hit(&self, number: u32) -> Option<&PickedPoint> {
-        self.traced(number)?.as_ref()
+        self.result(number)?
     }
 
     /// Whether a pick's ray has been traced.
     pub fn is_traced(&self, number: u32) -> bool {
-        self.traced(number).is_some()
+        self.result(number).is_some()
     }
 
-    fn traced(&self, number: u32) -> Option<&Option<PickedPoint>> {
+    /// The result of a pick's ray, once it is traced: a hit or a miss.
+    fn result(&self, number: u32) -> Option<Option<&PickedPoint>> {
         let (_, found) = self.found.as_ref()?;
         let of_pick = found.iter().find(|(of, _)| *of == number);
-        of_pick.map(|(_, hit)| hit)
+        of_pick.map(|(_, hit)| hit.as_ref())
     }
 
     pub fn with_hits(&self) -> Vec<(&PickedPixel, Option<&PickedPoint>)> {
@@ -274,7 +275,7 @@ mod tests {
     use hitscope_core::camera::Turntable;
 
     #[test]
-    fn a_pick_is_traced_once_its_hit_or_miss_is_known() {
+    fn a_pick_counts_as_traced_when_its_hit_or_miss_is_known() {
         let size = UVec2::new(40, 30);
         let camera = Turntable::framing(Aabb::EMPTY, size).camera(size);
         let mut picks = Picks::default();

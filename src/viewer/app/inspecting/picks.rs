@@ -125,7 +125,7 @@ impl App {
                 None if self.traced_document_of(pick.side).is_none() => {
                     "side B isn't traced".to_owned()
                 }
-                None if !picks.is_traced(pick.number) => "being traced…".to_owned(),
+                None if !picks.is_traced(pick.number) => "tracing…".to_owned(),
                 None => "no hit".to_owned(),
             },
         };
@@ -240,7 +240,7 @@ impl App {
         self.picked.inspecting.picks.shows_walk ^= true;
     }
 
-    /// Writes the picks to a file, whose extension is the format: JSON, or comma-separated values.
+    /// Writes the picks to a JSON or CSV file; the extension selects the format.
     pub(in crate::app) fn export_picks(&mut self, path: &Path, ctx: &egui::Context) {
         let extension = path.extension().unwrap_or_default();
         let text = match extension.to_ascii_lowercase().to_str() {
