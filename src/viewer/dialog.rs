@@ -1,7 +1,7 @@
 //! The system's dialogs for opening and saving files, and the path field that replaces them.
 
 use crate::task::{Task, TaskPanicked};
-use crate::text_field::text_field;
+use crate::text_field::{select_all, text_field};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::pin::Pin;
@@ -71,9 +71,17 @@ impl FileDialog {
         }
     }
 
-    /// The initial path of the path field: the suggested path, or else the last one entered.
+    /// The initial path of the path field: one that was entered for saving but wasn't written, the suggested path, or else
+    /// the last one entered.
     fn first_path(&self) -> Option<PathBuf> {
-        self.suggested.clone().or_else(|| self.entered.clone())
+        let unwritten = self
+            .entered
+            .as_ref()
+            .filter(|path| self.spec.is_saving && !path.exists());
+        unwritten
+            .or(self.suggested.as_ref())
+            .or(self.entered.as_ref())
+            .cloned()
     }
 
     /// Shows the system's dialog, or the path field if the dialog is already open and perhaps hidden. The dialog starts
@@ -171,6 +179,7 @@ impl FileDialog {
                     let edit = ui.add(edit).labelled_by(label.id);
                     if std::mem::take(&mut field.is_new) {
                         edit.request_focus();
+                        select_all(ui.ctx(), edit.id, &field.path);
                     }
                     let is_enter = ui.input(|input| input.key_pressed(egui::Key::Enter));
                     // A file is replaced only by a click on a button that says so.

@@ -1,8 +1,7 @@
 //! The box in which the user names an element to go to.
 
-use crate::text_field::text_field;
-use egui::text::CCursorRange;
-use egui::{Key, Modal, Modifiers, TextEdit};
+use crate::text_field::{select_all, text_field};
+use egui::{Key, Modal, Modifiers};
 use hitscope_core::obj::shortened;
 use hitscope_lab::element::Element;
 
@@ -81,14 +80,6 @@ impl GoToBox {
             }
         }
     }
-}
-
-/// Selects the text of a field, so that typing replaces it.
-fn select_all(ctx: &egui::Context, field: egui::Id, text: &str) {
-    let mut state = TextEdit::load_state(ctx, field).unwrap_or_default();
-    let all = CCursorRange::select_all_str(text);
-    state.cursor.set_char_range(Some(all));
-    state.store(ctx, field);
 }
 
 /// The element that a text names: a kind and a number, or three numbers.

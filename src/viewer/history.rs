@@ -10,8 +10,10 @@ const WHEEL_PAUSE_SECS: f64 = 0.5;
 /// A movement whose changes are one step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gesture {
-    /// A button of the pointer is down, or the camera moves by itself.
+    /// A button of the pointer is down, or the camera rotates by itself.
     Motion,
+    /// The camera moves to a view.
+    Transition,
     /// The wheel turns.
     Wheel,
     /// A text field has the focus.

@@ -40,7 +40,7 @@ impl Measurements {
         if let [.., a, b] = points {
             let angle = angle_between(a.normal, b.normal);
             all.row(
-                format!("normals of {} and {}", a.number, b.number),
+                format!("angle of normals {} and {}", a.number, b.number),
                 degrees(angle),
             );
         }
@@ -184,7 +184,7 @@ mod tests {
         let found = Measurements::between(&points(&[[0.0; 3], [3.0, 4.0, 0.0]]));
         assert_eq!(value(&found, "distance 1 to 2"), "5");
         assert_eq!(value(&found, "dx, dy, dz 1 to 2"), "3, 4, 0");
-        assert_eq!(value(&found, "normals of 1 and 2"), "90.000000°");
+        assert_eq!(value(&found, "angle of normals 1 and 2"), "90.000000°");
         assert_eq!(found.lines, [[DVec3::ZERO, DVec3::new(3.0, 4.0, 0.0)]]);
         assert_eq!(found.texts[0].1, "5.00000");
         assert!(found.to_text().starts_with("distance 1 to 2\t5\n"));

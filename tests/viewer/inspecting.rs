@@ -107,7 +107,7 @@ fn ctrl_click_adds_picks_that_are_numbered_measured_pinned_and_removed() {
     wait_for_label(&mut window, "#2");
     assert!(has(&window, "#1") && has(&window, "Pick 1") && has(&window, "Pick 2"));
     wait_for_label(&mut window, "distance 1 to 2");
-    wait_for_label(&mut window, "normals of 1 and 2");
+    wait_for_label(&mut window, "angle of normals 1 and 2");
     add_pick(&mut window, pixels[2]);
     wait_for_label(&mut window, "angle at 2");
     wait_for_label(&mut window, "circle 1, 2, 3");
@@ -147,7 +147,7 @@ fn picks_snap_as_the_mode_says_and_the_wall_behind_the_pick_is_measured() {
     let pixels = pixels_on_triangles(&window, 2);
     pick(&mut window, pixels[0]);
     add_pick(&mut window, pixels[1]);
-    for (mode, kind) in [("Vertex", "vertex"), ("Edge", "edge"), ("Off", "face")] {
+    for (mode, kind) in [("Vertex", "vertex"), ("Edge", "edge"), ("Face", "face")] {
         window.get_by_label(mode).click();
         window.run_steps(2);
         wait(&mut window, mode, |app| {

@@ -2,7 +2,7 @@
 
 use crate::app::drop_file;
 use crate::harness::{
-    Window, app, bare, click, in_picture, pointer, press, say, settle, wait, write,
+    Window, app, bare, click, in_picture, pointer, press, run_command, say, settle, wait, write,
 };
 use egui::{Event, Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
@@ -220,6 +220,25 @@ fn undo_and_redo_bring_back_orbit_view_overlay_and_pick() {
     assert_eq!(Some(&window.state().sight()), states.last());
     ctrl(&mut window, Key::Y);
     assert_eq!(window.state().notice(), Some("Nothing to redo"));
+}
+
+#[test]
+fn a_view_that_is_reached_by_a_movement_is_one_step() {
+    let Some(mut window) = bare() else { return };
+    run_command(&mut window, "Reduced motion");
+    assert!(!window.state().preferences().navigation.reduces_motion);
+    let mut states: Vec<Sight> = vec![window.state().sight()];
+    for key in [Key::Num9, Key::Num3, Key::Num7] {
+        press(&mut window, key);
+        // The movement takes 15 steps.
+        window.run_steps(30);
+        states.push(window.state().sight());
+    }
+    for expected in states.iter().rev().skip(1) {
+        ctrl(&mut window, Key::Z);
+        assert_eq!(window.state().sight(), *expected);
+    }
+    assert_eq!(window.state().notice(), None);
 }
 
 #[test]

@@ -55,13 +55,17 @@ pub fn shown(path: &Path) -> String {
     printable(&path.to_string_lossy())
 }
 
-/// Why a file can't be read, as text for the user.
-pub(crate) fn reason(error: &io::Error) -> String {
-    match error.kind() {
-        io::ErrorKind::NotFound => "not found".to_owned(),
-        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+/// Why a file can't be read or written, as text for the user.
+pub fn reason(error: &io::Error) -> String {
+    let text = match error.kind() {
+        io::ErrorKind::NotFound => return "not found".to_owned(),
+        io::ErrorKind::PermissionDenied => return "permission denied".to_owned(),
+        io::ErrorKind::NotADirectory => return "a folder of the path is a file".to_owned(),
         _ => error.to_string(),
-    }
+    };
+    // The number of the error is for programs.
+    let words = text.rsplit_once(" (os error ");
+    words.map_or(text.as_str(), |(words, _)| words).to_owned()
 }
 
 /// Replaces control characters and bidirectional formatting characters in a text.

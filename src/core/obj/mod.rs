@@ -57,8 +57,8 @@ mod used;
 mod vertex_source;
 mod words;
 
-pub use error::{LoadError, Warning, shown};
-pub(crate) use error::{printable, reason};
+pub(crate) use error::printable;
+pub use error::{LoadError, Warning, reason, shown};
 pub use face_source::{FaceCorner, FaceSource, face_source};
 pub(crate) use fence::fenced;
 pub use materials::ReadFile;

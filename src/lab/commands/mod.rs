@@ -62,7 +62,7 @@ pub use threads::{ThreadsArg, default_thread_count, start_thread_pool};
 pub use trace::TraceArgs;
 
 use hitscope_core::camera::CameraError;
-use hitscope_core::obj::{LoadError, shown};
+use hitscope_core::obj::{LoadError, reason, shown};
 use hitscope_core::render::RenderError;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -92,7 +92,7 @@ pub enum CommandError {
         height: u32,
     },
     /// A file other than the mesh couldn't be read or written.
-    #[error("{}: {source}", shown(path))]
+    #[error("{}: {}", shown(path), reason(source))]
     File {
         /// The file.
         path: PathBuf,

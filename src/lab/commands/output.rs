@@ -186,7 +186,11 @@ fn destination(path: &Path) -> io::Result<Destination> {
         Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
         _ => {}
     }
-    drop(Draft::create(&path)?);
+    let draft = Draft::create(&path).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => io::Error::other("its folder doesn't exist"),
+        _ => error,
+    });
+    drop(draft?);
     Ok(Destination::Replaced(path))
 }
 

@@ -114,7 +114,9 @@ impl App {
         let Some(transition) = &mut self.navigation.transition else {
             return;
         };
-        if transition.last != self.seen.turntable {
+        // It lasts one frame longer than the movement, so that all of it is one step of undo.
+        let has_arrived = transition.last == transition.to;
+        if has_arrived || transition.last != self.seen.turntable {
             self.navigation.transition = None;
             return;
         }
@@ -122,12 +124,11 @@ impl App {
         let part = ((now - transition.start_secs) / TRANSITION_SECS).clamp(0.0, 1.0);
         let eased = part * part * (3.0 - 2.0 * part);
         self.seen.turntable = transition.from.towards(&transition.to, eased);
-        transition.last = self.seen.turntable;
         if part == 1.0 {
-            self.navigation.transition = None;
-        } else {
-            ctx.request_repaint();
+            self.seen.turntable = transition.to;
         }
+        transition.last = self.seen.turntable;
+        ctx.request_repaint();
     }
 
     /// Looks along an axis.

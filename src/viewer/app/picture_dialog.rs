@@ -20,6 +20,8 @@ use std::time::Duration;
 /// The options of the picture, and the one that is being rendered.
 pub(super) struct PictureDialog {
     is_open: bool,
+    /// Whether the dialog was shown before; the first time, it has the samples of the window.
+    was_shown: bool,
     size: UVec2,
     samples: u32,
     has_overlay: bool,
@@ -32,6 +34,7 @@ impl Default for PictureDialog {
     fn default() -> Self {
         Self {
             is_open: false,
+            was_shown: false,
             size: UVec2::new(1920, 1080),
             samples: 64,
             has_overlay: true,
@@ -142,9 +145,9 @@ impl PictureDialog {
     }
 }
 
-/// The rendered part and the time left, such as `12 %, 5m 20s left`.
+/// The rendered part and the time left, such as `12.3 %, 5m 20s left`.
 fn progress_text(part: f32, elapsed: Duration) -> String {
-    let percent = format!("{:.0} %", (100.0 * part).floor());
+    let percent = format!("{:.1} %", (1000.0 * part).floor() / 10.0);
     match time_left(part.into(), elapsed) {
         Some(left) => format!("{percent}, {} left", seconds_text(left)),
         None => percent,
@@ -156,7 +159,9 @@ impl App {
     pub(crate) fn toggle_picture_dialog(&mut self) {
         let dialog = &mut self.pictures.dialog;
         dialog.is_open ^= true;
-        dialog.samples = self.seen.settings.samples;
+        if !std::mem::replace(&mut dialog.was_shown, true) {
+            dialog.samples = self.seen.settings.samples;
+        }
     }
 
     /// Shows the dialog if it is open.
@@ -258,10 +263,10 @@ mod tests {
     #[test]
     fn the_estimate_of_the_time_left_assumes_constant_speed() {
         let text = |part, secs| progress_text(part, Duration::from_secs(secs));
-        assert_eq!(text(0.0, 60), "0 %");
-        assert_eq!(text(0.5, 0), "50 %");
-        assert_eq!(text(0.5, 30), "50 %, 30s left");
-        assert_eq!(text(0.25, 100), "25 %, 5m left");
-        assert_eq!(text(0.999, 1000), "99 %, 2s left");
+        assert_eq!(text(0.0, 60), "0.0 %");
+        assert_eq!(text(0.5, 0), "50.0 %");
+        assert_eq!(text(0.5, 30), "50.0 %, 30s left");
+        assert_eq!(text(0.25, 100), "25.0 %, 5m left");
+        assert_eq!(text(0.999, 1000), "99.9 %, 2s left");
     }
 }

@@ -116,6 +116,8 @@ impl App {
         });
         let gesture = if is_pressed || self.seen.is_rotating {
             Some(Gesture::Motion)
+        } else if self.navigation.is_changing_view() {
+            Some(Gesture::Transition)
         } else if is_wheel {
             Some(Gesture::Wheel)
         } else {

@@ -104,7 +104,7 @@ pub(super) const ROWS: &[Command] = &[
         name: "save-picture",
         keys: &[key(Key::F12)],
         title: "Save picture",
-        tooltip: "Saves the picture and its overlay as a PNG file beside the open file",
+        tooltip: "Saves the picture and its lines, without labels, as a PNG file beside the open file",
         place: SAVE,
         is_on: None,
         obstacle: lacks_scene,

@@ -67,7 +67,7 @@ pub(super) const ROWS: &[Command] = &[
     Command {
         name: "export-picks",
         keys: &[ctrl(Key::E)],
-        title: "Export picks",
+        title: "Export picks…",
         tooltip: "Writes the list of picks to a JSON or CSV file; the extension selects the format",
         place: LIST,
         is_on: None,

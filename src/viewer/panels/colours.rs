@@ -45,7 +45,7 @@ pub fn colours_ui(
             })
             .response
             .labelled_by(label.id)
-            .on_hover_text("Views that compare kernels always have a dark background");
+            .on_hover_text("Views that compare kernels always have a dark background. Views of light show the environment, if there is one");
     });
 }
 

@@ -1,13 +1,18 @@
 //! The quality levels in the Display tab, with their speed and accuracy in this scene.
 
 use super::row_ui;
+use super::trade::mrays_per_s;
 use crate::command::{Commands, QUALITIES};
-use crate::numbers::significant;
 use crate::quality::{MovingResolution, Quality};
 use crate::settings::Settings;
 use crate::trade::Trade;
 use egui::{CollapsingHeader, ComboBox, RichText};
-use hitscope_lab::measure::statistics::rate_text;
+use hitscope_lab::measure::statistics::{rate_text, short};
+
+/// The meaning of the figures.
+const FIGURES_ABOUT: &str = "\
+The speed is the mean of camera, bounce and random rays, as in the Trade tab.
+A number in parentheses bounds the rate with 95 % confidence where no decision was wrong.";
 
 /// Shows the sets. Returns whether the user wants the kernels to be measured.
 pub fn quality_ui(
@@ -37,7 +42,7 @@ pub fn quality_ui(
     ui.data_mut(|data| data.insert_temp(id, details.openness > 0.0));
     match trade.and_then(|trade| figures(settings, trade)) {
         Some(figures) => {
-            ui.label(figures);
+            ui.label(figures).on_hover_text(FIGURES_ABOUT);
             false
         }
         None => ui
@@ -79,9 +84,9 @@ fn figures(settings: &Settings, trade: &Trade) -> Option<String> {
     let rows = trade.rows();
     let kernel = settings.kernel();
     let row = rows.iter().find(|row| trade.is_used(kernel, row))?;
-    let speed = significant(row.speed.mrays_per_s.primary, 3);
+    let speed = short(mrays_per_s(row, &rows)?);
     let wrong = rate_text(row.wrong_count(), row.n);
     Some(format!(
-        "In this scene: {speed} million camera rays per second on one thread; wrong decisions per million rays: {wrong}"
+        "In this scene: {speed} million rays per second on one thread; wrong decisions per million rays: {wrong}"
     ))
 }

@@ -103,16 +103,17 @@ fn kernel_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     });
 }
 
+/// The rate of a kernel in million rays per second of CPU time, the mean of all workloads; `None` until that of the fast
+/// kernel is measured, to which its speed is relative.
+pub fn mrays_per_s(row: &SceneRow, rows: &[SceneRow]) -> Option<f64> {
+    let fast = rows.iter().find(|row| row.info.tier == Some(Tier::Fast))?;
+    Some(speed(row) * fast.speed.mrays_per_s.mean())
+}
+
 /// Speed relative to `fast`, which was measured alternately with this kernel, so that other load slows down
 /// both.
 fn speed(row: &SceneRow) -> f64 {
     1.0 / row.speed.time_relative_to_fast.max(1e-3)
-}
-
-/// The mean rate of the fast kernel over all workloads, in million rays per second; `None` until it is measured.
-fn mrays_per_s_of_fast(rows: &[SceneRow]) -> Option<f64> {
-    let fast = rows.iter().find(|row| row.info.tier == Some(Tier::Fast));
-    fast.map(|fast| fast.speed.mrays_per_s.mean())
 }
 
 /// A row's place in the plot.
@@ -246,9 +247,8 @@ fn draw_labels(
 /// Shows a row for each kernel, shape by shape; a click selects it.
 fn table_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut Settings) {
     const COLUMNS: [&str; 5] = ["kernel", "speed", "Mrays/s", "wrong/M", "t ulps"];
-    let of_fast = mrays_per_s_of_fast(rows);
     let cells: Vec<[String; 5]> = std::iter::once(COLUMNS.map(str::to_owned))
-        .chain(rows.iter().map(|row| cells(row, of_fast)))
+        .chain(rows.iter().map(|row| cells(row, rows)))
         .collect();
     let widths = widths(&cells);
     let text = |cells: &[String; 5]| {
@@ -296,11 +296,11 @@ fn table_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut 
         });
 }
 
-fn cells(row: &SceneRow, mrays_per_s_of_fast: Option<f64>) -> [String; 5] {
+fn cells(row: &SceneRow, rows: &[SceneRow]) -> [String; 5] {
     [
         row.info.short_name().to_owned(),
         format!("{:.2}", speed(row)),
-        mrays_per_s_of_fast.map_or_else(dash, |rate| short(speed(row) * rate)),
+        mrays_per_s(row, rows).map_or_else(dash, short),
         rate_text(row.wrong_count(), row.n),
         row.t_ulps.map_or_else(dash, |t| short(t.p99)),
     ]

@@ -199,6 +199,7 @@ impl App {
                 document.improve(ctx);
                 self.compared.drop_mesh();
                 self.compared.mesh = Some(document);
+                self.feedback.notice = None;
                 self.pick_again_on_b(ctx);
             }
             Err(message) => {
