@@ -3,6 +3,7 @@
 use super::App;
 use super::labels::labels_ui;
 use super::pick::Pick;
+use crate::comparison::Mode;
 use crate::gpu::GpuError;
 use crate::look::Development;
 use crate::overlay::{self, Marks, OverlayInput};
@@ -185,7 +186,13 @@ impl App {
         let input = self.overlay_input(&scene, camera, canvas.pixels_per_point);
         let is_moving = is_dragging || self.traced.tracer.is_moving();
         let overlays = &self.seen.settings.overlays;
-        let mut labels = overlay::labels(&input, overlays);
+        // A difference and a distance map have no overlay.
+        let is_of_sides = self.shows(Mode::Difference) || self.shows(Mode::Distance);
+        let mut labels = if is_of_sides {
+            Vec::new()
+        } else {
+            overlay::labels(&input, overlays)
+        };
         // Above the others in its corner, which stay in place.
         labels.splice(0..0, self.picked.inspecting.hover.label());
         let drawn = if is_moving {
@@ -217,7 +224,9 @@ impl App {
         self.pixel_values_ui(ui, canvas, &camera);
         labels_ui(ui, canvas, &camera, &labels);
         self.scale_legend_ui(ui, canvas);
-        self.marks_ui(&painter, canvas, &input);
+        if !is_of_sides {
+            self.marks_ui(&painter, canvas, &input);
+        }
     }
 
     /// Draws rings around the picks, and crosshairs at the marked points.

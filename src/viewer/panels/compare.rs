@@ -13,6 +13,9 @@ use glam::UVec2;
 use hitscope_core::group::ShapeKernels;
 use hitscope_core::integrator::{INTEGRATORS, Integrator};
 
+/// Width in points of the narrowest choice; longer texts are cut.
+const NARROWEST_COMBO: f32 = 90.0;
+
 /// The contents of the tab besides the choices.
 pub struct CompareView<'a> {
     /// The kernels of the scene's shapes.
@@ -134,7 +137,8 @@ fn source_ui(
         let label = ui.label("Source");
         let combo = ComboBox::from_id_salt("source")
             .selected_text(comparison.source.title())
-            .width(180.0)
+            .width(ui.available_width().clamp(NARROWEST_COMBO, 180.0))
+            .truncate()
             .show_ui(ui, |ui| {
                 for source in Source::ALL {
                     let is_chosen = comparison.source == source;
@@ -300,7 +304,8 @@ fn choice_ui(
         };
         let combo = ComboBox::from_id_salt(title)
             .selected_text(text)
-            .width(170.0)
+            .width(ui.available_width().clamp(NARROWEST_COMBO, 170.0))
+            .truncate()
             .height(320.0)
             .show_ui(ui, |ui| {
                 if let Some(none) = none

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | this file | [`Compared`], the owner of side B |
 //! | `sides` | the documents of side B; tracing and rasterizing them |
-//! | `screen` | drawing side B, the divider and the difference |
+//! | `screen`, `divider` | drawing side B and the difference; the divider |
 //! | `shown` | the picture on the screen as pixels |
 //! | `rasterized_side` | side A when it is rasterized |
 //! | `measured` | figures of the differences, distances, the distance map |
@@ -12,6 +12,7 @@
 //! | `chosen` | the commands, and the tab *Compare* |
 
 mod chosen;
+mod divider;
 mod inspected;
 mod measured;
 mod rasterized_side;

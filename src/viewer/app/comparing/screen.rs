@@ -1,4 +1,4 @@
-//! Drawing side B, the divider and the difference.
+//! Drawing side B and the difference.
 
 use super::Compared;
 use crate::app::App;
@@ -7,15 +7,12 @@ use crate::comparison::{Mode, RasterizedPicture, Side, Source, difference_pictur
 use crate::gpu::GpuError;
 use crate::gpu::picture::Picture;
 use crate::look::Look;
-use crate::theme;
-use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Shape, vec2};
+use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Shape};
 use glam::UVec2;
 use hitscope_core::plan::PixelRect;
 use hitscope_core::tone::Display;
 use std::sync::Arc;
 
-/// Width in points of the strip in which the divider can be dragged.
-const GRIP: f32 = 9.0;
 /// Distance of the sides' names from the divider and from the edge of the picture, in points.
 const MARGIN: f32 = 8.0;
 
@@ -220,19 +217,6 @@ impl App {
         }
     }
 
-    /// The divider's x coordinate on the screen, between two pixels.
-    pub(super) fn divider_x(&self, canvas: Canvas) -> f32 {
-        let (left, right) = (canvas.rect.left(), canvas.rect.right());
-        let x = left + self.seen.comparison.divider * (right - left);
-        (x * canvas.pixels_per_point).round() / canvas.pixels_per_point
-    }
-
-    /// The first column of side B in a picture of this width that isn't magnified.
-    pub(super) fn divider_column(&self, width: u32) -> u32 {
-        let column = (self.seen.comparison.divider * width as f32).round();
-        (column as u32).min(width)
-    }
-
     /// Counts a change of the traced side A on the screen.
     pub(in crate::app) fn note_change_of_a(&mut self, ctx: &egui::Context) {
         if self.rasterizes_a() {
@@ -357,35 +341,6 @@ impl App {
                 let text = self.map_status().unwrap_or("Distance from A to B");
                 name(middle, Align2::CENTER_TOP, text.to_owned());
             }
-        }
-    }
-
-    /// Shows the divider, which can be dragged.
-    pub(in crate::app) fn divider_ui(&mut self, ui: &egui::Ui, canvas: Canvas) {
-        if !self.shows(Mode::Wipe) {
-            return;
-        }
-        let x = self.divider_x(canvas);
-        let grip = Rect::from_center_size(
-            Pos2::new(x, canvas.rect.center().y),
-            vec2(GRIP, canvas.rect.height()),
-        );
-        let id = ui.scope_id().with("divider");
-        let response = ui
-            .interact(grip, id, Sense::drag())
-            .on_hover_and_drag_cursor(egui::CursorIcon::ResizeHorizontal);
-        if let (true, Some(pos)) = (response.dragged(), response.interact_pointer_pos()) {
-            let part = (pos.x - canvas.rect.left()) / canvas.rect.width();
-            self.seen.comparison.divider = part.clamp(0.0, 1.0);
-        }
-        let divider = f64::from(self.seen.comparison.divider);
-        response.widget_info(|| egui::WidgetInfo::slider(true, divider, "Divider in the picture"));
-        let painter = ui.painter_at(canvas.rect);
-        let is_held = response.hovered() || response.dragged() || response.has_focus();
-        for (width, colour) in [(3.0, Color32::BLACK), (1.0, theme::PICK)] {
-            let width = if is_held { width + 1.0 } else { width };
-            let stroke = egui::Stroke::new(width, colour);
-            painter.vline(self.divider_x(canvas), canvas.rect.y_range(), stroke);
         }
     }
 }
