@@ -43,19 +43,6 @@ impl Extent {
     pub fn centre(&self) -> DVec3 {
         self.min.midpoint(self.max)
     }
-
-    /// A box around this one that clips nothing inside: the distance of a surface on the very face of a clip is rounded,
-    /// so half of its pixels would be clipped.
-    #[must_use]
-    pub fn with_margin(&self) -> Self {
-        /// Part of the longest side. It far exceeds the rounding, and can't be seen. The tooltip of `clip-fit` names it.
-        const MARGIN: f64 = 1e-3;
-        let margin = MARGIN * (self.max - self.min).max_element();
-        Self {
-            min: self.min - margin,
-            max: self.max + margin,
-        }
-    }
 }
 
 impl ClipChoice {
@@ -82,7 +69,7 @@ impl ClipChoice {
         if self.normal == DVec3::ZERO {
             self.set_plane(DVec3::X, scene.centre());
         }
-        self.cell.get_or_insert(scene.with_margin());
+        self.cell.get_or_insert(*scene);
     }
 
     /// Clips by a plane through a point.
@@ -136,8 +123,7 @@ mod tests {
         choice.toggle(ClipShape::Box, &SCENE);
         let cell = choice.clip().expect("a clip").expect("a box");
         assert!(cell.keeps(SCENE.centre()) && !cell.keeps(DVec3::ZERO));
-        let beside = DVec3::splat(1e-6);
-        assert!(cell.keeps(SCENE.min - beside) && cell.keeps(SCENE.max + beside));
+        assert!(cell.keeps(SCENE.min) && cell.keeps(SCENE.max));
         choice.toggle(ClipShape::Box, &SCENE);
         assert_eq!(choice.clip(), Ok(None));
     }

@@ -150,7 +150,7 @@ fn the_nearest_hit_is_the_first_kept_crossing_alone_in_packets_and_as_occlusion(
 }
 
 #[test]
-fn each_crossing_is_on_exactly_one_side_of_a_plane() {
+fn each_crossing_is_on_a_side_of_a_plane() {
     let (mut random, scene) = (Random::new(3), mixed());
     let rays = rays(&mut random, 300);
     for kernel in tiers() {
@@ -165,6 +165,7 @@ fn each_crossing_is_on_exactly_one_side_of_a_plane() {
                 let (mut both, all) = (a.all_hits(ray), whole.all_hits(ray));
                 both.extend(b.all_hits(ray));
                 both.sort_by(|a, b| a.hit.t.total_cmp(&b.hit.t));
+                both.dedup();
                 assert_eq!(both, all, "{} {sides:?} {ray:?}", kernel.info.name);
             }
         }
@@ -245,7 +246,7 @@ fn crossings_are_kept_by_their_exact_side() {
                 match side {
                     1 => assert_eq!(kept, [true, false], "{ray:?} {crossing:?}"),
                     -1 => assert_eq!(kept, [false, true], "{ray:?} {crossing:?}"),
-                    _ => assert!(kept[0] != kept[1], "{ray:?} {crossing:?}"),
+                    _ => assert_eq!(kept, [true, true], "{ray:?} {crossing:?}"),
                 }
                 off_plane += i64::from(side != 0);
                 on_plane += i64::from(side == 0);
@@ -308,7 +309,7 @@ fn triangle_in_plane(normal: DVec3, middle: DVec3, radius: f64) -> (Scene, [Vec3
 }
 
 #[test]
-fn the_owner_of_a_plane_shows_a_face_in_it_completely_and_the_other_side_does_not_show_it() {
+fn a_face_in_the_plane_of_a_clip_is_shown_completely() {
     let mut random = Random::new(3);
     for k in 0..60 {
         let normal = if k % 2 == 0 {
@@ -352,10 +353,8 @@ fn the_owner_of_a_plane_shows_a_face_in_it_completely_and_the_other_side_does_no
                 let clip = Clip::plane(sign * normal, sign * normal.dot(middle));
                 hit_count(&scene.with_clip(Some(clip.expect("a plane"))))
             };
-            let first = normal.to_array().into_iter().find(|&x| x != 0.0);
-            let owner = first.expect("a direction").signum();
             let name = kernel.info.name;
-            assert_eq!([of_side(owner), of_side(-owner)], [all, 0], "{name} {k}");
+            assert_eq!([of_side(1.0), of_side(-1.0)], [all; 2], "{name} {k}");
         }
     }
 }

@@ -4,20 +4,19 @@ use super::{ClipError, KeptInterval};
 use crate::ray::f32_below;
 use glam::DVec3;
 
-/// The thickness of a plane, relative to the sum of the products whose sum is a distance to it: 2⁻²⁴ for the rounding of
-/// f32 vertices, and 15 times as much for t of the kernels that round.
-const THICKNESS: f64 = 16.0 / (1 << 24) as f64;
-/// The most that the reach of a ray adds, relative to its origin's distance to the plane. It matters for rays that are
-/// almost parallel to the plane, whose t has no bound.
-const MOST_OF_REACH: f64 = 1.0 / 1024.0;
+/// Twice the rounding of f32 vertices in a plane, relative to their coordinates.
+const VERTEX_ERROR: f64 = 2.0 / (1 << 24) as f64;
+/// Sixteen times the rounding of t to f32, relative to the length of the ray: some kernels compute in f32.
+const T_ERROR: f64 = 16.0 / (1 << 24) as f64;
+/// The most that the length of a ray adds to the thickness, relative to its origin's distance to the plane. It matters for
+/// rays that are almost parallel to the plane, whose t has no bound.
+const MOST_OF_LENGTH: f64 = 1.0 / 1024.0;
 
-/// One side of a plane: `normal·p ≤ offset`, or `<` if the plane itself belongs to the other side; see the
-/// [module](super).
+/// One side of a plane, with the plane: `normal·p ≤ offset`; see the [module](super).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HalfSpace {
     normal: DVec3,
     offset: f64,
-    has_plane: bool,
 }
 
 impl HalfSpace {
@@ -26,8 +25,9 @@ impl HalfSpace {
     /// # Errors
     /// See [`ClipError`].
     pub fn new(normal: DVec3, offset: f64) -> Result<Self, ClipError> {
-        let first = normal.to_array().into_iter().find(|&x| x != 0.0);
-        let has_plane = first.ok_or(ClipError::NormalZero)? > 0.0;
+        if normal == DVec3::ZERO {
+            return Err(ClipError::NormalZero);
+        }
         if !normal.is_finite() {
             return Err(ClipError::NotFinite);
         }
@@ -38,11 +38,7 @@ impl HalfSpace {
         if !offset.is_finite() {
             return Err(ClipError::NotFinite);
         }
-        Ok(Self {
-            normal,
-            offset,
-            has_plane,
-        })
+        Ok(Self { normal, offset })
     }
 
     /// The normal, which points to what is removed. Its largest component is between 1 and 2.
@@ -53,16 +49,6 @@ impl HalfSpace {
     /// The offset: `normal·p` of the points of the plane.
     pub fn offset(&self) -> f64 {
         self.offset
-    }
-
-    /// The other side.
-    #[must_use]
-    pub fn opposite(&self) -> Self {
-        Self {
-            normal: -self.normal,
-            offset: -self.offset,
-            has_plane: !self.has_plane,
-        }
     }
 
     pub(super) fn moved(&self, by: DVec3) -> Result<Self, ClipError> {
@@ -76,67 +62,50 @@ impl HalfSpace {
 
     /// Whether a point is on this side. A point with a NaN isn't.
     pub fn keeps(&self, point: DVec3) -> bool {
-        self.keeps_distance(self.distance(point))
+        self.distance(point) >= 0.0
     }
 
-    /// The offset at which rays from `origin` are cut. It is the plane's offset, moved by the plane's thickness away from
-    /// the side that owns the plane.
-    ///
-    /// ```text
-    ///   owner │▓▓▓▓▓│ other side          │ left = offset, ▓ = thickness, │ right = returned offset
-    /// ```
-    pub fn offset_from(&self, origin: DVec3) -> f64 {
-        let size = self.normal.abs().dot(origin.abs()) + self.offset.abs();
-        self.offset + self.towards_other_side(THICKNESS * size)
+    /// The offset at which points near `point` are cut: that of the plane, moved away from this side by the rounding of
+    /// vertices there.
+    pub fn offset_near(&self, point: DVec3) -> f64 {
+        let size = self.normal.abs().dot(point.abs()) + self.offset.abs();
+        self.offset + VERTEX_ERROR * size
     }
 
-    /// The distance of a point to the plane's boundary in lengths of the normal, positive on this side. The opposite side
-    /// computes the same number with the opposite sign.
+    /// The distance of a point to the boundary in lengths of the normal, positive on this side.
     fn distance(&self, point: DVec3) -> f64 {
-        self.offset_from(point) - self.normal.dot(point)
-    }
-
-    /// A length along the normal that leads from the owner of the plane to the other side.
-    fn towards_other_side(&self, length: f64) -> f64 {
-        if self.has_plane { length } else { -length }
-    }
-
-    fn keeps_distance(&self, distance: f64) -> bool {
-        distance > 0.0 || (self.has_plane && distance == 0.0)
+        self.offset_near(point) - self.normal.dot(point)
     }
 
     /// The t of a ray on this side; `None` if there are none, or for a NaN. The origin decides about a ray that is
     /// parallel to the plane.
     pub(super) fn kept(&self, origin: DVec3, dir: DVec3) -> Option<KeptInterval> {
         let (distance, speed) = (self.distance(origin), self.normal.dot(dir));
-        // At the hit, positions are rounded in proportion to the ray's reach.
-        let reach = self.normal.abs().dot((distance / speed * dir).abs());
-        let thickness = (THICKNESS * reach).min(MOST_OF_REACH * distance.abs());
-        let t = (distance + self.towards_other_side(thickness)) / speed;
+        let length = self.normal.abs().dot((distance / speed * dir).abs());
+        let thickness = ((VERTEX_ERROR + T_ERROR) * length).min(MOST_OF_LENGTH * distance.abs());
+        let t = (distance + thickness) / speed;
         if speed > 0.0 && !t.is_nan() {
             // The ray leaves this side.
-            let last = last_before(t, self.has_plane);
             Some(KeptInterval {
-                last,
+                last: f32_below(t),
                 ..KeptInterval::ALL
             })
         } else if speed < 0.0 && !t.is_nan() {
-            let after = last_before(t, !self.has_plane);
             Some(KeptInterval {
-                after,
+                after: before(t),
                 ..KeptInterval::ALL
             })
         } else {
-            let is_parallel = speed == 0.0 && self.keeps_distance(distance);
+            let is_parallel = speed == 0.0 && distance >= 0.0;
             is_parallel.then_some(KeptInterval::ALL)
         }
     }
 }
 
-/// The largest f32 on the side of a plane that a ray leaves at t. `has_plane` says whether t itself is on that side.
-fn last_before(t: f64, has_plane: bool) -> f32 {
+/// The largest f32 that is less than t.
+fn before(t: f64) -> f32 {
     let last = f32_below(t);
-    if !has_plane && f64::from(last) == t {
+    if f64::from(last) == t {
         last.next_down()
     } else {
         last

@@ -3,13 +3,11 @@
 //! A [`Clip`] is an intersection of half-spaces, which is convex: of each ray it keeps one interval of t. Rays are cut;
 //! the geometry stays as it is, so that kernels compute the same t, u and v with a clip as without one.
 //!
-//! A point of a bounding plane belongs to the side whose normal has a positive first component (of those that aren't
-//! zero). So of the two sides of a plane exactly one keeps a point, and boxes that share a face tile space.
+//! A plane belongs to both of its sides and is as thick as the errors of f32 positions and of t, so that a face in the
+//! plane is shown completely, not in the pixels in which rounding puts it on this side. Both sides of a plane keep such a
+//! face; of all else exactly one side keeps each point.
 //!
-//! The interval's ends are computed in f64, with the same operations for either side of a plane, and rounded down to
-//! f32. The clip then decides by the f32 t that a kernel reports: one side keeps hits up to the rounded end, the other
-//! one those behind it, so each hit is kept by exactly one side. A plane is as thick as the errors of t and of f32
-//! positions. The side that owns the plane shows a face in it completely; the other side doesn't show it.
+//! The interval's ends are computed in f64 and rounded down to f32. The clip decides by the f32 t that a kernel reports.
 
 mod half_space;
 

@@ -24,17 +24,17 @@ fn keeps(clip: &Clip, ray: &Ray, t: f32) -> bool {
 #[test]
 fn planes_and_boxes_cut_rays_where_they_cross_them() {
     let down = ray(Vec3::new(0.0, 0.0, 3.0), -2.0 * Vec3::Z);
-    // The plane is 3e-6 thick in t: a quarter of this lies inside, all of it outside.
-    let near = 6e-6;
+    // The planes are 1e-6 and 2e-6 thick in t.
+    let (inside, outside) = (5e-7, 6e-6);
     // z ≤ 1 from t = 1 on.
     let cut = plane(DVec3::Z, 1.0).cut(&down).expect("a part");
     assert_eq!(cut.ray.t_min, cut.kept.after);
     assert_eq!(cut.ray.t_max, f32::INFINITY);
-    assert!(cut.kept.contains(1.0 - 0.25 * near) && !cut.kept.contains(1.0 - near));
-    // −1 < z ≤ 1 to t = 2, without it.
+    assert!(cut.kept.contains(1.0 - inside) && !cut.kept.contains(1.0 - outside));
+    // −1 ≤ z ≤ 1 to t = 2.
     let slab = Clip::axis_box(DVec3::splat(-1.0), DVec3::ONE).expect("a box");
     let cut = slab.cut(&down).expect("a part");
-    assert!(cut.kept.contains(2.0 - near) && !cut.kept.contains(2.0 - 0.25 * near));
+    assert!(cut.kept.contains(2.0 + inside) && !cut.kept.contains(2.0 + outside));
     let beside = ray(Vec3::new(2.0, 0.0, 3.0), -Vec3::Z);
     assert_eq!(slab.cut(&beside), None);
     // What isn't in the ray's interval isn't added.
@@ -47,12 +47,12 @@ fn the_origin_decides_about_rays_parallel_to_a_plane() {
     for z in [0.5, 1.0, 1.5] {
         let along = ray(Vec3::new(0.0, 0.0, z), Vec3::new(1.0, -0.0, 0.0));
         let [below, above] = sides(DVec3::Z, 1.0).map(|clip| clip.cut(&along).is_some());
-        assert_eq!([below, above], [z <= 1.0, z > 1.0], "{z}");
+        assert_eq!([below, above], [z <= 1.0, z >= 1.0], "{z}");
     }
 }
 
 #[test]
-fn each_f32_t_is_on_exactly_one_side_of_a_plane() {
+fn each_f32_t_is_on_a_side_of_a_plane_and_on_both_only_near_it() {
     let mut random = Random::new(1);
     let vector = |random: &mut Random, scale: f64| (scale * random.in_cube()).as_vec3();
     for k in 0..200_000 {
@@ -86,13 +86,22 @@ fn each_f32_t_is_on_exactly_one_side_of_a_plane() {
                 ..given
             };
             let kept = [&first, &second].map(|clip| keeps(clip, &line, t));
-            assert!(kept[0] != kept[1], "{given:?} {normal} {offset} {t}");
+            assert!(kept[0] || kept[1], "{given:?} {normal} {offset} {t}");
+            if kept == [true; 2] {
+                let along = f64::from(t) * given.dir.as_dvec3();
+                let distance = normal.dot(origin.as_dvec3() + along) - offset;
+                let reach = origin.as_dvec3().abs() + along.abs();
+                let size = normal.abs().dot(reach) + offset.abs();
+                // Eighteen roundings, or a thousandth of the origin's distance.
+                let bound = 2e-6 * size + 1.1e-3 * (offset - normal.dot(origin.as_dvec3())).abs();
+                assert!(distance.abs() <= bound, "{given:?} {normal} {offset} {t}");
+            }
         }
     }
 }
 
 #[test]
-fn a_point_is_kept_by_exactly_one_side_of_a_plane_and_one_of_two_boxes_with_a_common_face() {
+fn a_point_in_a_plane_is_kept_by_both_sides_and_by_two_boxes_with_a_common_face() {
     for (p, normal, offset) in [
         (DVec3::ZERO, DVec3::Z, 0.0),
         (DVec3::ONE, DVec3::new(1.0, -2.0, 1.0), 0.0),
@@ -100,7 +109,9 @@ fn a_point_is_kept_by_exactly_one_side_of_a_plane_and_one_of_two_boxes_with_a_co
         (DVec3::new(0.1, 0.2, 0.3), DVec3::new(0.3, 0.7, 0.11), 0.2),
     ] {
         let kept = sides(normal, offset).map(|clip| clip.keeps(p));
-        assert!(kept[0] != kept[1], "{p}");
+        let is_inside = (normal.dot(p) - offset).abs() < 1e-9;
+        assert_eq!(kept == [true; 2], is_inside, "{p}");
+        assert!(kept[0] || kept[1], "{p}");
         assert!(!plane(normal, offset).keeps(DVec3::NAN));
     }
     let cell = |x: f64| {
@@ -115,7 +126,7 @@ fn a_point_is_kept_by_exactly_one_side_of_a_plane_and_one_of_two_boxes_with_a_co
             assert_eq!(cell.keeps(p), keeps(&cell, &through, x as f32 + 1.0), "{x}");
             u8::from(cell.keeps(p))
         });
-        assert_eq!(count[0] + count[1], 1, "{x}");
+        assert_eq!(count[0] + count[1], if x == 1.0 { 2 } else { 1 }, "{x}");
     }
 }
 

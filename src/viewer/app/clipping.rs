@@ -52,7 +52,7 @@ impl App {
 
     /// Makes the box that clips the scene that of the scene.
     pub(crate) fn fit_clip_box(&mut self) {
-        self.seen.settings.clip.cell = Some(self.extent().with_margin());
+        self.seen.settings.clip.cell = Some(self.extent());
     }
 
     /// Why the clip's plane can't be changed; `None` if it can.
@@ -69,22 +69,9 @@ impl App {
 
     /// Clips by the plane that touches the surface at the marked point, and removes the side of the camera.
     pub(crate) fn clip_at_pick(&mut self) {
-        /// Distance of the plane to the surface, relative to the sizes that determine the thickness of a plane: it is
-        /// some ten times as large, so that the surface itself stays.
-        const GAP: f64 = 1e-5;
-        let Some((point, normal)) = self.marked_surface() else {
-            return;
-        };
-        let extent = self.extent();
-        let eye = self
-            .picked
-            .pick
-            .as_ref()
-            .map(|pick| pick.camera.exact_eye());
-        let eye = eye.unwrap_or_default() + self.open.document.origin();
-        let size = (extent.max - extent.min).max_element() + (eye - point).length();
-        let plane_point = point + GAP * size * normal.normalize_or_zero();
-        self.seen.settings.clip.use_plane(normal, plane_point);
+        if let Some((point, normal)) = self.marked_surface() {
+            self.seen.settings.clip.use_plane(normal, point);
+        }
     }
 
     /// The marked point in the file's coordinates, and the geometric normal there, towards the picked ray's origin.

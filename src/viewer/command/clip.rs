@@ -83,7 +83,7 @@ pub(super) const ROWS: &[Command] = &[
         name: "clip-fit",
         keys: &[],
         title: "Fit the box to the scene",
-        tooltip: "Makes the box as large as the scene, plus a margin of 0.1 % of its longest side",
+        tooltip: "Makes the box as large as the scene",
         place: CLIP,
         is_on: None,
         obstacle: App::lacks_clip_box,

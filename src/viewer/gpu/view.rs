@@ -78,8 +78,14 @@ impl ViewUniform {
         let eye = Vec3::from_array(self.eye).as_dvec3();
         self.planes = [KEEPS_ALL; MAX_OVERLAY_PLANES];
         for (plane, half_space) in self.planes.iter_mut().zip(half_spaces) {
+            /// Rounding of f32 in the shader, relative to the products that it adds.
+            const ROUNDING: f64 = 8.0 / (1 << 24) as f64;
+            let size = half_space.normal().abs().dot(eye.abs()) + half_space.offset().abs();
+            let rounding = ROUNDING * size;
             let normal = half_space.normal().as_vec3();
-            *plane = normal.extend(half_space.offset_from(eye) as f32).to_array();
+            *plane = normal
+                .extend((half_space.offset_near(eye) + rounding) as f32)
+                .to_array();
         }
         self
     }

@@ -83,10 +83,9 @@ comments produce no output.
 
 Numbers parse as doubles without loss.
 
---clip-plane and --clip-box end rays at the clip, as tmin and tmax do. A point
-of a plane belongs to the side whose normal has a positive first component, of
-those that aren't 0. A hit is kept by exactly one side of a plane; within an
-ulp of t from the plane, it may be the wrong one.
+--clip-plane and --clip-box end rays at the clip, as tmin and tmax do. A hit is
+kept by the side of a plane that it is on; within the rounding of positions and
+of t from the plane, it is kept by both sides.
 
 Rounding: rays and scenes are traced as f32 numbers relative to an origin near
 the scene (--recentre). A ray with more digits, or from far away, is rounded.
