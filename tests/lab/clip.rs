@@ -28,9 +28,9 @@ fn trace_drops_crossings_outside_of_the_clip() {
         ("", vec![2.0, 3.0]),
         ("--clip-plane 0,0,1,0.5", vec![3.0]),
         ("--clip-plane 0,0,-1,-0.5", vec![2.0]),
-        // A face in the plane belongs to one side of it.
+        // A face in the plane belongs to both sides of it.
         ("--clip-plane 0,0,2,2", vec![2.0, 3.0]),
-        ("--clip-plane 0,0,-2,-2", vec![]),
+        ("--clip-plane 0,0,-2,-2", vec![2.0]),
         ("--clip-plane 0,0,1,0.5 --clip-plane 0,0,-1,-0.2", vec![]),
         ("--clip-box 0,0,0.5,1,1,2", vec![2.0]),
         ("--clip-box 0,0,-1,0.2,1,2", vec![]),
