@@ -9,8 +9,8 @@ struct View {
     near_w: f32,
     // Width and height of the picture in pixels.
     viewport: vec2f,
-    // Normal of each of the clip's planes, and its offset, with the rounding of positions; a point p is kept if dot(normal, p) is at most the offset. Unused
-    // planes keep every point.
+    // Normal of each of the clip's planes, and its offset, with the rounding of positions; a point p is kept if
+    // dot(normal, p) is at most the offset. Unused planes keep every point.
     planes: array<vec4f, PLANE_COUNT>,
 };
 

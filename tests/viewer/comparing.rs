@@ -76,6 +76,12 @@ fn enter_path(window: &mut Window, button: &str, path: &Path) -> Option<()> {
     None
 }
 
+/// Compares with a file where the machine has no file dialog; `None` if it has one.
+fn compare_with_file(window: &mut Window, path: &Path) -> Option<()> {
+    choose(window, "Source", Source::Mesh.title());
+    enter_path(window, "Compare with a file…", path)
+}
+
 /// The colour on the screen at a point of the picture.
 pub fn colour(window: &mut Window, x: f32, y: f32) -> [u8; 3] {
     let at = in_picture(window, x, y);
@@ -162,8 +168,7 @@ fn home_frames_both_sides() {
     compare(&mut window);
     press(&mut window, Key::Home);
     let near = window.state().turntable().distance;
-    choose(&mut window, "Source", Source::Mesh.title());
-    let Some(()) = enter_path(&mut window, "Compare with a file…", &large) else {
+    let Some(()) = compare_with_file(&mut window, &large) else {
         return;
     };
     assert_eq!(window.state().turntable().distance, near);
@@ -235,8 +240,7 @@ fn another_file_is_shown_measured_and_inspected_beside_the_first() {
     };
     let other = write(&folder, "farther.obj", FARTHER);
     compare(&mut window);
-    choose(&mut window, "Source", Source::Mesh.title());
-    let Some(()) = enter_path(&mut window, "Compare with a file…", &other) else {
+    let Some(()) = compare_with_file(&mut window, &other) else {
         return;
     };
     assert_eq!(window.state().notice(), None);

@@ -124,9 +124,6 @@ impl App {
         let part = ((now - transition.start_secs) / TRANSITION_SECS).clamp(0.0, 1.0);
         let eased = part * part * (3.0 - 2.0 * part);
         self.seen.turntable = transition.from.towards(&transition.to, eased);
-        if part == 1.0 {
-            self.seen.turntable = transition.to;
-        }
         transition.last = self.seen.turntable;
         ctx.request_repaint();
     }

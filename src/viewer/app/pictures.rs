@@ -80,12 +80,12 @@ impl App {
         let work = move || {
             let (size, mut pixels) = (picture.size, picture.pixels);
             if let Some(input) = input {
-                let bare = pixels.clone();
+                let (width, overlaid) = (size.x as usize, picture.overlaid_columns as usize);
+                let bare = (overlaid < width).then(|| pixels.clone());
                 offscreen::draw_onto(&mut pixels, (&device, &queue), &input, &overlays)
                     .map_err(|error| error.to_string())?;
-                let overlaid = picture.overlaid_columns as usize;
-                let rows = pixels.chunks_mut(size.x as usize);
-                for (row, bare) in rows.zip(bare.chunks(size.x as usize)) {
+                let bare_rows = bare.iter().flat_map(|bare| bare.chunks(width));
+                for (row, bare) in pixels.chunks_mut(width).zip(bare_rows) {
                     row[overlaid..].copy_from_slice(&bare[overlaid..]);
                 }
             }

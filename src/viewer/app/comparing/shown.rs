@@ -16,12 +16,11 @@ pub(in crate::app) struct ShownPicture {
 impl App {
     /// Why there will be no picture on the screen; `None` if there is one, or will be.
     pub(in crate::app) fn lacks_shown_picture(&self) -> Option<&'static str> {
-        if !self.is_comparing() || self.shows(Mode::A) {
-            return None;
-        }
         match self.seen.comparison.mode {
+            _ if !self.is_comparing() => None,
+            Mode::A => None,
             Mode::Distance => self.map_status(),
-            _ => self.lacks_b(),
+            Mode::B | Mode::Wipe | Mode::Difference => self.lacks_b(),
         }
     }
 
