@@ -16,19 +16,43 @@ pub struct RayLanes<L> {
     /// The coordinates to use as x, y and z. z is the direction's longest component; x and y are the next
     /// two, swapped if z points backwards, which preserves the triangles' winding.
     pub axes: [usize; 3],
+    /// Origins and directions along these axes.
+    pub along_axes: [[L; 3]; 2],
 }
 
 impl<L: Lane> RayLanes<L> {
     /// Puts the same ray in every lane.
     #[inline(always)]
     pub fn of(token: L::Token, ray: &Ray) -> Self {
-        let ([x, y, z], [i, j, k]) = (ray.origin.to_array(), ray.dir.to_array());
-        let dir = [i, j, k];
+        let (origin, dir) = (ray.origin.as_ref(), ray.dir.as_ref());
+        let all = |v: &[f32; 3], [x, y, z]: [usize; 3]| {
+            [L::of(token, v[x]), L::of(token, v[y]), L::of(token, v[z])]
+        };
+        let axes = axes_of(*dir);
         Self {
-            origin: [L::of(token, x), L::of(token, y), L::of(token, z)],
-            dir: [L::of(token, i), L::of(token, j), L::of(token, k)],
+            origin: all(origin, [0, 1, 2]),
+            dir: all(dir, [0, 1, 2]),
             interval: [L::of(token, ray.t_min), L::of(token, ray.t_max)],
-            axes: axes_of(dir),
+            axes,
+            // Picked before they are put in lanes: an index into an array of vectors is slow.
+            along_axes: [all(origin, axes), all(dir, axes)],
+        }
+    }
+
+    /// Puts a different ray in each lane. The axes must be those of all the rays.
+    #[inline(always)]
+    pub fn with_axes(
+        origin: [L; 3],
+        dir: [L; 3],
+        interval: [L; 2],
+        axes @ [x, y, z]: [usize; 3],
+    ) -> Self {
+        Self {
+            origin,
+            dir,
+            interval,
+            axes,
+            along_axes: [[origin[x], origin[y], origin[z]], [dir[x], dir[y], dir[z]]],
         }
     }
 
@@ -48,12 +72,8 @@ impl<L: Lane> RayLanes<L> {
         if is_backward.any() != is_backward.all() {
             return None;
         }
-        Some(Self {
-            origin,
-            dir,
-            interval,
-            axes: axes_along(z, is_backward.any()),
-        })
+        let axes = axes_along(z, is_backward.any());
+        Some(Self::with_axes(origin, dir, interval, axes))
     }
 }
 

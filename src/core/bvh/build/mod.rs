@@ -1,10 +1,12 @@
-//! Top-down tree builder: splits directly into eight children, by the surface-area heuristic.
+//! Tree builder: a binary tree by the surface-area heuristic, then the nodes with eight children that make the best of it.
 //!
 //! Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", IRT 2007 (bins over the
-//!   centroids' box). Differs from it: a node's largest child is split until there are eight; costs count
-//!   blocks, as a SIMD test costs the same with full and with empty lanes; near the root several threads bin
-//!   and partition a range together; below it each thread builds separate subtrees, which are joined at the end.
+//!   centroids' box). Differs from it: costs count blocks, as a SIMD test costs the same with full and with empty
+//!   lanes; near the root several threads bin and partition a range together; below it each thread builds separate
+//!   subtrees, which are joined at the end.
 
+mod binary;
+mod collapse;
 mod join;
 mod partition;
 mod quick;
@@ -16,18 +18,19 @@ mod unbounded;
 use super::{BLOCK_SIZE, Bvh, Child, LEAF_BLOCKS, MAX_DEPTH, NO_PRIMITIVE, Node, WIDTH};
 use crate::aabb::Aabb;
 use crate::progress::Cancelled;
+use binary::{Builder, Tree};
 use glam::{Vec3A, Vec4};
 use join::joined;
 use rayon::prelude::*;
-use split::{Scale, Splitter};
+use split::Scale;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// Subtrees with fewer primitives are built by one thread.
 const MIN_JOB_SIZE: usize = 4096;
 /// Smallest number of subtrees that the threads share.
 const MIN_JOB_COUNT: usize = 256;
-/// Ranges with fewer primitives are built without a check for cancellation.
-const CANCELLABLE_FROM: usize = 1024;
+/// The most levels of a binary tree, unless its nodes would be too deep.
+const USUAL_LEVELS: usize = 128;
 
 /// A primitive during the build: its box and its index.
 ///
@@ -127,9 +130,9 @@ struct Subtree {
     blocks: Vec<[u32; BLOCK_SIZE]>,
 }
 
-/// A part of the tree whose children are built by several threads.
+/// A part of the tree whose children are made by several threads.
 enum Part {
-    /// Built by one thread: the root and the tree below it.
+    /// Made by one thread: the root and the tree below it.
     Subtree(Child, Subtree),
     /// A node and its children.
     Node(Box<Node>, Vec<Part>),
@@ -155,212 +158,145 @@ impl Bvh {
     ) -> Result<Self, Cancelled> {
         keep_going()?;
         let mut items = items_of(count, bounds_of);
-        let bounds = split::around(&items);
-        let scale = Scale::of(bounds);
+        let build = Build::new(&items, keep_going);
         let mut bvh = Self {
             nodes: Vec::new(),
             blocks: Vec::new(),
-            bounds: bounds.into(),
+            bounds: build.bounds.into(),
         };
         if items.is_empty() {
             return Ok(bvh);
         }
-        let range = Range {
-            centres: scale.centres(&items),
-            bounds,
-            items: &mut items,
+        let part = match build.part(&mut items, USUAL_LEVELS)? {
+            Some(part) => Some(part),
+            None => build.part(&mut items, MAX_DEPTH)?,
         };
-        let parts = Parts {
-            scale,
-            keep_going,
-            job_size: (count / MIN_JOB_COUNT).max(MIN_JOB_SIZE),
-        };
-        let root = parts.root(range)?;
-        let (tree, ()) = rayon::join(|| joined(root), || drop(items));
+        let part = part.expect("a tree of few levels has few levels of nodes");
+        let (tree, ()) = rayon::join(|| joined(part), || drop(items));
         (bvh.nodes, bvh.blocks) = (tree.nodes, tree.blocks);
         Ok(bvh)
     }
 }
 
-/// Builds the top of the tree, where several threads share the work.
-struct Parts<'k> {
+/// What holds for a whole build.
+#[derive(Clone, Copy)]
+struct Build<'k> {
+    bounds: Bounds,
     scale: Scale,
     keep_going: KeepGoing<'k>,
-    /// Ranges of at most this many primitives are built by one thread.
+    /// Trees of at most this many primitives are built and collapsed by one thread.
     job_size: usize,
 }
 
-impl<'k> Parts<'k> {
-    fn builder(&self) -> Builder<'k> {
-        Builder {
-            splitter: Splitter::new(self.scale),
-            keep_going: self.keep_going,
-            tree: Subtree::default(),
+impl<'k> Build<'k> {
+    fn new(items: &[Item], keep_going: KeepGoing<'k>) -> Self {
+        let bounds = split::around(items);
+        Self {
+            bounds,
+            scale: Scale::of(bounds),
+            keep_going,
+            job_size: (items.len() / MIN_JOB_COUNT).max(MIN_JOB_SIZE),
         }
     }
 
-    /// Builds the root. It is a node even if the tree has one leaf, so that its box is tested.
-    fn root(&self, range: Range) -> Result<Part, Cancelled> {
-        let mut builder = self.builder();
-        match builder.split(range, 0) {
-            Ok(halves) => self.node(builder, halves, 0),
-            Err(range) => {
-                let mut node = Node::EMPTY;
-                node.set_bounds(0, range.bounds);
-                let leaf = builder.leaf(range.items);
-                Ok(Part::Node(
-                    Box::new(node),
-                    vec![Part::Subtree(leaf, builder.tree)],
-                ))
-            }
-        }
-    }
-
-    fn part(&self, range: Range, depth: usize) -> Result<Part, Cancelled> {
-        let mut builder = self.builder();
-        if range.items.len() <= self.job_size {
-            let root = builder.child(range, depth)?;
-            return Ok(Part::Subtree(root, builder.tree));
-        }
-        match builder.split(range, depth) {
-            Ok(halves) => self.node(builder, halves, depth),
-            Err(range) => Ok(Part::Subtree(builder.leaf(range.items), builder.tree)),
-        }
-    }
-
-    /// Builds a node above the two ranges.
-    fn node(
-        &self,
-        mut builder: Builder,
-        halves: [Range; 2],
-        depth: usize,
-    ) -> Result<Part, Cancelled> {
-        let (node, ranges) = builder.ranges(halves, depth)?;
-        drop(builder);
-        let parts = ranges.into_par_iter().with_max_len(1);
-        let parts = parts.map(|range| self.part(range, depth + 1));
-        Ok(Part::Node(Box::new(node), parts.collect::<Result<_, _>>()?))
+    /// Builds a binary tree of at most `levels` levels and collapses it. Returns `None` if a node would be deeper than
+    /// [`MAX_DEPTH`], which takes more levels.
+    fn part(&self, items: &mut [Item], levels: usize) -> Result<Option<Part>, Cancelled> {
+        let range = Range {
+            centres: self.scale.centres(items),
+            bounds: self.bounds,
+            items,
+        };
+        let (tree, _) = Builder::new(*self, levels).tree(range, 0, 0)?;
+        let (items, job_size) = (&*items, self.job_size);
+        Ok(Collapse { items, job_size }.root(tree))
     }
 }
 
-/// Builds a subtree.
-struct Builder<'k> {
-    splitter: Splitter,
-    keep_going: KeepGoing<'k>,
-    tree: Subtree,
+/// Makes the nodes, and frees the binary trees on the way. Its functions return `None` if a node is deeper than
+/// [`MAX_DEPTH`].
+struct Collapse<'a> {
+    items: &'a [Item],
+    job_size: usize,
 }
 
-impl Builder<'_> {
-    /// Builds a range as a node or a leaf.
-    fn child(&mut self, range: Range, depth: usize) -> Result<Child, Cancelled> {
-        match self.split(range, depth) {
-            Ok(halves) => self.node(halves, depth),
-            Err(range) => Ok(self.leaf(range.items)),
-        }
+impl Collapse<'_> {
+    /// Makes the root. It is a node even if the tree has one leaf, so that its box is tested.
+    fn root(&self, tree: Tree) -> Option<Part> {
+        let children = tree.into_children().unwrap_or_else(|tree| vec![tree]);
+        self.node(children, 1)
     }
 
-    /// Splits a range in two, or returns it if a leaf is cheaper.
-    fn split<'a>(&mut self, range: Range<'a>, depth: usize) -> Result<[Range<'a>; 2], Range<'a>> {
-        let count = range.items.len();
-        if count <= BLOCK_SIZE {
-            return Err(range);
+    /// Makes a node above these trees.
+    fn node(&self, children: Vec<Tree>, depth: usize) -> Option<Part> {
+        if depth > MAX_DEPTH {
+            return None;
         }
-        // Halving by index keeps depth + log₂(n) ≤ MAX_DEPTH for any input.
-        if depth + count.ilog2() as usize + 2 > MAX_DEPTH {
-            return Ok(self.splitter.halve(range));
-        }
-        self.splitter.split(range)
+        let node = Box::new(Node::around(&children));
+        let parts = children.into_par_iter().with_max_len(1);
+        let parts = parts.map(|tree| self.part(tree, depth + 1));
+        Some(Part::Node(node, parts.collect::<Option<_>>()?))
     }
 
-    /// Builds a node above the two ranges.
-    fn node(&mut self, halves: [Range; 2], depth: usize) -> Result<Child, Cancelled> {
-        let (node, ranges) = self.ranges(halves, depth)?;
-        let index = self.tree.nodes.len();
-        self.tree.nodes.push(node);
-        for (slot, range) in ranges.into_iter().enumerate() {
-            self.tree.nodes[index].child[slot] = self.child(range, depth + 1)?;
-        }
-        Ok(Child::node(index))
-    }
-
-    /// Splits two ranges further until there are eight; returns them and a node with their boxes.
-    fn ranges<'a>(
-        &mut self,
-        [first, second]: [Range<'a>; 2],
-        depth: usize,
-    ) -> Result<(Node, Vec<Range<'a>>), Cancelled> {
-        if first.items.len() + second.items.len() >= CANCELLABLE_FROM {
-            (self.keep_going)()?;
-        }
-        let mut ranges: [Option<Range<'a>>; WIDTH] = [const { None }; WIDTH];
-        // The area of each range that may be split again, else 0.
-        let mut weight = [0.0; WIDTH];
-        (weight[0], weight[1]) = (self.weight(&first), self.weight(&second));
-        (ranges[0], ranges[1]) = (Some(first), Some(second));
-        for count in 2..WIDTH {
-            let Some((slot, range)) = take_largest(&mut ranges, &mut weight) else {
-                break;
+    fn part(&self, mut tree: Tree, depth: usize) -> Option<Part> {
+        if tree.count() > self.job_size {
+            tree = match tree.into_children() {
+                Ok(children) => return self.node(children, depth),
+                Err(leaf) => leaf,
             };
-            match self.split(range, depth) {
-                Ok([first, second]) => {
-                    (weight[slot], weight[count]) = (self.weight(&first), self.weight(&second));
-                    (ranges[slot], ranges[count]) = (Some(first), Some(second));
-                }
-                Err(range) => ranges[slot] = Some(range),
-            }
         }
-        let ranges: Vec<Range<'a>> = ranges.into_iter().flatten().collect();
-        let mut node = Node::EMPTY;
-        for (slot, range) in ranges.iter().enumerate() {
-            node.set_bounds(slot, range.bounds);
+        let mut subtree = Subtree::default();
+        let root = subtree.add(tree, self.items, depth)?;
+        subtree.nodes.shrink_to_fit();
+        subtree.blocks.shrink_to_fit();
+        Some(Part::Subtree(root, subtree))
+    }
+}
+
+impl Subtree {
+    /// Adds a tree as a node or a leaf.
+    fn add(&mut self, tree: Tree, items: &[Item], depth: usize) -> Option<Child> {
+        let children = match tree.into_children() {
+            Ok(children) => children,
+            Err(leaf) => return Some(self.add_leaf(leaf.items(items))),
+        };
+        if depth > MAX_DEPTH {
+            return None;
         }
-        Ok((node, ranges))
+        let index = self.nodes.len();
+        self.nodes.push(Node::around(&children));
+        for (slot, tree) in children.into_iter().enumerate() {
+            self.nodes[index].child[slot] = self.add(tree, items, depth + 1)?;
+        }
+        Some(Child::node(index))
     }
 
-    fn weight(&self, range: &Range) -> f32 {
-        if range.items.len() > BLOCK_SIZE {
-            let area = self.splitter.scale.half_area(range.bounds);
-            area.max(f32::MIN_POSITIVE)
-        } else {
-            0.0
-        }
-    }
-
-    fn leaf(&mut self, items: &[Item]) -> Child {
+    fn add_leaf(&mut self, items: &[Item]) -> Child {
         debug_assert!(items.len() <= LEAF_BLOCKS * BLOCK_SIZE);
-        let first = self.tree.blocks.len();
+        let first = self.blocks.len();
         for part in items.chunks(BLOCK_SIZE) {
             let mut block = [NO_PRIMITIVE; BLOCK_SIZE];
             for (lane, item) in block.iter_mut().zip(part) {
                 *lane = item.index();
             }
-            self.tree.blocks.push(block);
+            self.blocks.push(block);
         }
-        Child::leaf(first, self.tree.blocks.len() - first)
+        Child::leaf(first, self.blocks.len() - first)
     }
 }
 
-/// Takes the range with the largest weight from its slot and sets that weight to 0. Of equal weights, which
-/// identical boxes have, takes the range with more primitives.
-fn take_largest<'a>(
-    ranges: &mut [Option<Range<'a>>; WIDTH],
-    weight: &mut [f32; WIDTH],
-) -> Option<(usize, Range<'a>)> {
-    let count = |slot: usize| ranges[slot].as_ref().map_or(0, |range| range.items.len());
-    let by_weight = |&a: &usize, &b: &usize| {
-        let by_weight = weight[a].total_cmp(&weight[b]);
-        by_weight.then(count(a).cmp(&count(b)))
-    };
-    let slot = (0..WIDTH)
-        .max_by(by_weight)
-        .filter(|&slot| weight[slot] > 0.0)?;
-    weight[slot] = 0.0;
-    Some((slot, ranges[slot].take()?))
-}
-
 impl Node {
-    fn set_bounds(&mut self, slot: usize, bounds: Bounds) {
-        let (lower, upper) = (bounds.lower.to_array(), bounds.upper.to_array());
+    /// A node with the trees' boxes.
+    fn around(trees: &[Tree]) -> Self {
+        let mut node = Self::EMPTY;
+        for (slot, tree) in trees.iter().enumerate() {
+            node.set_bounds(slot, tree.bounds);
+        }
+        node
+    }
+
+    fn set_bounds(&mut self, slot: usize, bounds: Aabb) {
+        let (lower, upper) = (bounds.min.to_array(), bounds.max.to_array());
         for axis in 0..3 {
             self.planes[2 * axis][slot] = lower[axis];
             self.planes[2 * axis + 1][slot] = upper[axis];

@@ -79,7 +79,7 @@ fn nodes(boxes: Vec<Bounds>) -> Vec<Node> {
             let mut node = Node::EMPTY;
             for (slot, &bounds) in part.iter().enumerate() {
                 let index = k * WIDTH + slot;
-                node.set_bounds(slot, bounds);
+                node.set_bounds(slot, bounds.into());
                 node.child[slot] = match height {
                     0 => Child::leaf(index, 1),
                     _ => Child::node(next + index),

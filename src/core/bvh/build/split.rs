@@ -1,6 +1,6 @@
 //! Splits a range of primitives in two, by bins along each axis and the surface-area heuristic.
 
-use super::super::{BLOCK_SIZE, LEAF_BLOCKS};
+use super::super::BLOCK_SIZE;
 use super::partition::Side;
 use super::{Bounds, Item, Range};
 use glam::Vec3A;
@@ -208,23 +208,16 @@ impl Splitter {
         }
     }
 
-    /// Splits a range at the cheapest plane, or returns it if a leaf costs no more.
-    pub fn split<'a>(&mut self, range: Range<'a>) -> Result<[Range<'a>; 2], Range<'a>> {
-        let count = range.items.len();
-        let grid = Grid::new(self.scale, range.centres, count);
+    /// Splits a range at the cheapest plane.
+    pub fn split<'a>(&mut self, range: Range<'a>) -> [Range<'a>; 2] {
+        let grid = Grid::new(self.scale, range.centres, range.items.len());
         self.fill(&grid, range.items);
         let Some(cut) = self.best_cut(&grid) else {
-            return Ok(self.halve(range));
+            return self.halve(range);
         };
-        if count <= LEAF_BLOCKS * BLOCK_SIZE {
-            let area = self.scale.half_area(range.bounds);
-            if area * blocks(count as u32) <= area + cut.cost {
-                return Err(range);
-            }
-        }
         let (middle, centres) = Side::new(grid, cut.axis, cut.bin).partition(range.items);
         let bounds = self.filled.sides(&cut, grid.bins);
-        Ok(halves(range.items, middle, bounds, centres))
+        halves(range.items, middle, bounds, centres)
     }
 
     /// Splits a range in its present order into halves of equal count.

@@ -96,6 +96,43 @@ fn identical_boxes_and_extreme_extents_build() {
     assert_sound(&build(&series), &series, series.len());
 }
 
+/// Clusters of 64 boxes; each cluster has half the size of the one before.
+fn nested_clusters(count: i32) -> Vec<Aabb> {
+    let cluster = |k: i32| {
+        let scale = 2f32.powi(-k);
+        scattered(64).into_iter().map(move |b| {
+            let shift = Vec3::splat(scale);
+            let moved = |p: Vec3| p * (scale / 2000.0) + shift;
+            Aabb::around([moved(b.min), moved(b.max)])
+        })
+    };
+    (0..count).flat_map(cluster).collect()
+}
+
+#[test]
+fn a_scene_whose_nodes_would_be_too_deep_is_built_with_fewer_levels() {
+    for (count, is_deep) in [(10, false), (100, true)] {
+        let boxes = nested_clusters(count);
+        let mut items = items_of(boxes.len(), &|primitive| boxes[primitive as usize]);
+        let part = |levels: usize, items: &mut [Item]| {
+            let build = Build::new(items, &|| Ok(()));
+            build.part(items, levels).expect("never cancelled")
+        };
+        assert_eq!(part(USUAL_LEVELS, &mut items).is_none(), is_deep, "{count}");
+        assert!(part(MAX_DEPTH, &mut items).is_some(), "{count}");
+        assert_sound(&build(&boxes), &boxes, boxes.len());
+    }
+}
+
+#[test]
+fn nodes_above_the_leaves_are_filled() {
+    let bvh = build(&scattered(10_000));
+    let children = bvh.nodes.iter().flat_map(|node| node.child);
+    let count = children.filter(|child| *child != Child::NONE).count();
+    let fill = count as f64 / bvh.nodes.len() as f64;
+    assert!(fill > 6.0, "{fill}");
+}
+
 #[test]
 fn the_tree_does_not_depend_on_the_scenes_size() {
     let boxes = scattered(2000);

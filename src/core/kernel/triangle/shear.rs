@@ -30,18 +30,15 @@ impl<L: Lane> ShearedRay<L> {
 
     #[inline(always)]
     pub fn new(rays: &RayLanes<L>) -> Self {
-        let RayLanes {
-            origin, dir, axes, ..
-        } = *rays;
-        let [dx, dy, dz] = [dir[axes[0]], dir[axes[1]], dir[axes[2]]];
+        let [origin, [dx, dy, dz]] = rays.along_axes;
         let (unit, slope) = if L::Number::HOLDS_PRODUCTS {
             (dz, [dx, dy])
         } else {
             (L::of(dz.token(), 1.0), [dx / dz, dy / dz])
         };
         Self {
-            axes,
-            origin: [origin[axes[0]], origin[axes[1]], origin[axes[2]]],
+            axes: rays.axes,
+            origin,
             unit,
             slope,
             dir_z: dz,

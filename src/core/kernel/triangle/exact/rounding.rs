@@ -85,16 +85,10 @@ impl HitLanes {
     #[inline(always)]
     pub fn values<S: Simd>(&self, token: S) -> RoundedLanes {
         let row = |rows: &[[f32; LANES]; 3], k: usize| f64::load(token, &rows[k]);
-        let rays = RayLanes {
-            origin: [
-                row(&self.origin, 0),
-                row(&self.origin, 1),
-                row(&self.origin, 2),
-            ],
-            dir: [row(&self.dir, 0), row(&self.dir, 1), row(&self.dir, 2)],
-            interval: [f64x8::splat(token, 0.0), f64x8::splat(token, f64::INFINITY)],
-            axes: self.axes,
-        };
+        let three = |rows| [row(rows, 0), row(rows, 1), row(rows, 2)];
+        let (origin, dir) = (three(&self.origin), three(&self.dir));
+        let interval = [f64x8::splat(token, 0.0), f64x8::splat(token, f64::INFINITY)];
+        let rays = RayLanes::with_axes(origin, dir, interval, self.axes);
         let sheared = ShearedRay::<f64x8<S>>::new(&rays);
         let corners = Widened {
             token,
