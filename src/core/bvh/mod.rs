@@ -96,7 +96,7 @@ impl Child {
     }
 }
 
-/// Eight children and their boxes: four cache lines.
+/// Eight children and their boxes: four cache lines. Boxes that [`Bvh::build`] makes are in order of area, the largest last.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 struct Node {

@@ -85,6 +85,9 @@ pub(crate) trait Visitor<S: Simd> {
     /// Whether the ray's interval may begin behind its origin.
     const IS_BEHIND: bool;
 
+    /// Whether a node's nearest child is visited first. Otherwise the child with the largest box is, as it is most likely hit.
+    const IS_NEAREST_FIRST: bool = true;
+
     /// Whether a tree's only block is visited only by rays that meet its box. Hits don't depend on that test, but lists of
     /// boxes and candidates do.
     const NEEDS_BOX_TEST: bool;
@@ -119,8 +122,9 @@ pub(crate) struct Walk<S: Simd> {
     limit: f32,
     /// The number of deferred children.
     depth: u8,
-    /// The key of the node or leaf.
-    current: u64,
+    /// The node or leaf.
+    // Not its key: the next node's address would have to wait for the distance.
+    current: Child,
 }
 
 impl<S: Simd> Walk<S> {
@@ -131,7 +135,7 @@ impl<S: Simd> Walk<S> {
             slabs: SlabRay::new(token, ray, start_slackened(ray.t_min)),
             limit: end_slackened(ray.t_max),
             depth: 0,
-            current: key(ray.t_min, Child::node(0)),
+            current: Child::node(0),
         }
     }
 
@@ -145,7 +149,7 @@ impl<S: Simd> Walk<S> {
         stack: &mut Stack,
         visitor: &mut V,
     ) -> bool {
-        let child = child_of(self.current);
+        let child = self.current;
         if child.is_leaf() {
             let (start, count) = (child.first_block(), child.block_count());
             for block in start..start + count {
@@ -157,7 +161,7 @@ impl<S: Simd> Walk<S> {
         } else if self.open(bvh, token, child.node_index(), stack, visitor) {
             return false;
         }
-        self.pop(stack)
+        self.pop::<V>(stack)
     }
 
     /// Goes to the nearest child of a node that the ray meets, and defers the others. Returns whether it meets any.
@@ -181,13 +185,28 @@ impl<S: Simd> Walk<S> {
         if met == 0 {
             return false;
         }
-        self.current = bvh.next(token, &mut met, &node.child, &entries, visitor);
+        let entries = if V::IS_NEAREST_FIRST {
+            entries
+        } else {
+            [0.0; WIDTH]
+        };
+        let mut a = bvh.next(token, &mut met, &node.child, &entries, visitor);
         if met == 0 {
+            self.current = child_of(a);
             return true;
         }
         let (first, mut depth) = (self.depth, self.depth);
+        if !V::IS_NEAREST_FIRST {
+            while met != 0 {
+                stack[usize::from(depth)] = a;
+                depth = depth.wrapping_add(1);
+                a = bvh.next(token, &mut met, &node.child, &entries, visitor);
+            }
+            (self.current, self.depth) = (child_of(a), depth);
+            return true;
+        }
         let b = bvh.next(token, &mut met, &node.child, &entries, visitor);
-        let (mut nearest, mut farther) = (self.current.min(b), self.current.max(b));
+        let (mut nearest, mut farther) = (a.min(b), a.max(b));
         // Sort two and three children without unpredictable branches.
         if met != 0 {
             let c = bvh.next(token, &mut met, &node.child, &entries, visitor);
@@ -204,19 +223,19 @@ impl<S: Simd> Walk<S> {
             nearest = nearest.min(next);
             depth = depth.wrapping_add(1);
         }
-        (self.current, self.depth) = (nearest, depth);
+        (self.current, self.depth) = (child_of(nearest), depth);
         true
     }
 
     /// Goes to the last deferred child that doesn't lie behind the hit. Returns whether there is none.
     #[inline(always)]
-    fn pop(&mut self, stack: &Stack) -> bool {
+    fn pop<V: Visitor<S>>(&mut self, stack: &Stack) -> bool {
         let mut depth = self.depth;
         while depth != 0 {
             depth -= 1;
-            self.current = stack[usize::from(depth)];
-            if entry_of(self.current) <= self.limit {
-                self.depth = depth;
+            let key = stack[usize::from(depth)];
+            if !V::IS_NEAREST_FIRST || entry_of(key) <= self.limit {
+                (self.current, self.depth) = (child_of(key), depth);
                 return false;
             }
         }

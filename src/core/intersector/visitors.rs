@@ -33,8 +33,10 @@ impl<S: Simd, T: Tester<S>, const MAYBE_COMPACT: bool> Visitor<S> for Nearest<S,
     fn open(&mut self, _: usize) {}
 }
 
-/// Finds any hit. Visits the nearest child first, too: in any other order random rays take a twentieth longer
-/// (1.1 M triangles, 2026-11).
+/// Finds any hit. Of a node's children those with large boxes come first: their order is known, so nothing is sorted.
+///
+/// Source: J.-H. Nah, D. Manocha, "SATO: Surface Area Traversal Order for Shadow Ray Tracing", Computer Graphics Forum
+/// 33(6), 2014.
 pub(super) struct Any<T, const MAYBE_COMPACT: bool> {
     pub tester: T,
     pub t_max: f32,
@@ -43,6 +45,7 @@ pub(super) struct Any<T, const MAYBE_COMPACT: bool> {
 
 impl<S: Simd, T: Tester<S>, const MAYBE_COMPACT: bool> Visitor<S> for Any<T, MAYBE_COMPACT> {
     const IS_BEHIND: bool = false;
+    const IS_NEAREST_FIRST: bool = false;
     const NEEDS_BOX_TEST: bool = false;
 
     #[inline(always)]

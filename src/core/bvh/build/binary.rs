@@ -34,7 +34,14 @@ impl Tree {
         &items[self.first as usize..][..self.count()]
     }
 
-    /// Takes the tree apart into those that the children of its node are made of. Returns it if it becomes a leaf.
+    /// Half the surface of the box.
+    fn half_area(&self) -> f64 {
+        let e = self.bounds.max.as_dvec3() - self.bounds.min.as_dvec3();
+        e.x * (e.y + e.z) + e.y * e.z
+    }
+
+    /// Takes the tree apart into those that the children of its node are made of, the largest last. Returns it if it
+    /// becomes a leaf.
     pub fn into_children(self) -> Result<Vec<Self>, Self> {
         let is_node = |inner: &Inner| !inner.choice.is_leaf();
         if !self.inner.as_deref().is_some_and(is_node) {
@@ -42,6 +49,7 @@ impl Tree {
         }
         let mut children = Vec::with_capacity(WIDTH);
         self.replace(WIDTH, &mut children);
+        children.sort_by(|a, b| a.half_area().total_cmp(&b.half_area()));
         Ok(children)
     }
 

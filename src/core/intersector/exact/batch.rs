@@ -75,23 +75,26 @@ pub(super) fn round<T: Shape + Into<Triangle>, S: Simd>(
                 primitive,
                 slot,
             } = *kept;
-            let ray = &rays[index as usize];
-            let hit = values.of(lane, primitive);
-            hits[index as usize] = hit.or_else(|| rounded_alone(ray, blocks, primitive, slot));
+            let hit = &mut hits[index as usize];
+            match values.of(lane, primitive) {
+                Some(found) => *hit = Some(found),
+                None => round_alone(&rays[index as usize], blocks, [primitive, slot], hit),
+            }
         }
     }
 }
 
-/// The hit of the triangle in a slot, with t, u and v computed with as many digits as they need.
-// Not inlined: this path is rare.
+/// Writes the hit of a primitive in a slot, with t, u and v computed with as many digits as they need.
+// Not inlined: this path is rare. It writes the hit itself: a hit that is returned by one of two paths is put together in
+// memory and then copied, and the processor waits for the parts.
 #[inline(never)]
-pub(in crate::intersector) fn rounded_alone<T: Shape + Into<Triangle>>(
+pub(in crate::intersector) fn round_alone<T: Shape + Into<Triangle>>(
     ray: &Ray,
     blocks: &BlocksOf<Exact<T>>,
-    primitive: u32,
-    slot: u32,
-) -> Option<Hit> {
+    [primitive, slot]: [u32; 2],
+    hit: &mut Option<Hit>,
+) {
     let slot = slot as usize;
     let candidate = Candidate::new(primitive, slot, f32::NEG_INFINITY, f32::INFINITY);
-    Some(Judge::new(ray, SlotCorners(blocks)).hit(candidate))
+    *hit = Some(Judge::new(ray, SlotCorners(blocks)).hit(candidate));
 }

@@ -2,7 +2,7 @@
 
 mod batch;
 
-pub(super) use batch::rounded_alone;
+pub(super) use batch::round_alone;
 
 use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, SlabRay};
 use crate::intersector::blocks::{BlockValues, LaneOf, Row, can_be_hit};

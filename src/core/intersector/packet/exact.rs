@@ -7,7 +7,7 @@ use super::{BlockLane, PacketMethod, PacketTester};
 use crate::aabb::Planes;
 use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, RayPacket, Slabs};
 use crate::intersector::blocks::{BlockValues, LaneValues, Row, stored};
-use crate::intersector::exact::{Exact, LaneCandidate, SlotCorners, nearer, rounded_alone};
+use crate::intersector::exact::{Exact, LaneCandidate, SlotCorners, nearer, round_alone};
 use crate::intersector::method::BlocksOf;
 use crate::kernel::exact::{Candidate, DepthInterval, Filtered, HitLanes, Judge, VALUES, filter};
 use crate::kernel::{RayLanes, ShearedRay};
@@ -119,10 +119,15 @@ impl<T: Shape + Into<Triangle>> PacketMethod for Exact<T> {
             while lane < LANES {
                 let i = half * LANES + lane;
                 if is_hit >> i & 1 == 1 {
-                    let hit = values.of(lane, primitive[i]);
-                    let alone =
-                        || rounded_alone(&tester.rays[i], tester.corners.0, primitive[i], slot[i]);
-                    hits[i] = hit.or_else(alone);
+                    match values.of(lane, primitive[i]) {
+                        Some(hit) => hits[i] = Some(hit),
+                        None => round_alone(
+                            &tester.rays[i],
+                            tester.corners.0,
+                            [primitive[i], slot[i]],
+                            &mut hits[i],
+                        ),
+                    }
                 }
                 lane += 1;
             }
