@@ -49,14 +49,14 @@ impl<S: Simd> RayPacket<S> {
     /// excludes a primitive; such rays are traced one by one.
     #[inline(always)]
     pub fn new(token: S, rays: &[Ray; PACKET]) -> Option<Self> {
-        let (mut starts, mut rests) = ([[0.0; 4]; PACKET], [[0.0; 4]; PACKET]);
-        let mut is_plain = copy(rays, &mut starts, &mut rests);
+        let ([starts, rests], mut is_plain) = rows(rays);
         let [x, y, z, dx] = columns(token, &starts);
         let [dy, dz, t_min, t_max] = columns(token, &rests);
         let dir = [dx, dy, dz];
         let (zero, one) = (f32x16::splat(token, 0.0), f32x16::splat(token, 1.0));
         let inverse = [one / dir[0], one / dir[1], one / dir[2]];
         let mut is_down = [false; 3];
+        // Plain loops, here and below: functions called by an iterator may be compiled without the CPU's features.
         let mut axis = 0;
         while axis < 3 {
             let down = inverse[axis].simd_lt(zero);
@@ -79,23 +79,19 @@ impl<S: Simd> RayPacket<S> {
     }
 }
 
-/// Copies the first and the next four numbers of each ray. Returns whether no ray starts behind its origin or excludes a
-/// primitive.
-// Not inlined: the compiler would see through the shuffles of `columns`, and gather number by number instead, which takes
-// a tenth of a packet's time (bunny, AVX-512, AMD, 2026-11).
+/// The first and the next four numbers of each ray, and whether no ray starts behind its origin or excludes a primitive.
+// Not inlined: otherwise the compiler replaces the shuffles of `columns` by gathers, which take a ninth of the time of a
+// packet (bunny, AVX-512, AMD Zen 4, 2026-11).
 #[inline(never)]
-fn copy(
-    rays: &[Ray; PACKET],
-    starts: &mut [[f32; 4]; PACKET],
-    rests: &mut [[f32; 4]; PACKET],
-) -> bool {
-    let mut is_plain = true;
-    for (ray, (start, rest)) in rays.iter().zip(starts.iter_mut().zip(rests)) {
+fn rows(rays: &[Ray; PACKET]) -> ([[[f32; 4]; PACKET]; 2], bool) {
+    let (mut rows, mut is_plain) = ([[[0.0; 4]; PACKET]; 2], true);
+    for (i, ray) in rays.iter().enumerate() {
         is_plain &= ray.t_min >= 0.0 && ray.exclude.is_none();
         let ([x, y, z], [dx, dy, dz]) = (ray.origin.to_array(), ray.dir.to_array());
-        (*start, *rest) = ([x, y, z, dx], [dy, dz, ray.t_min, ray.t_max]);
+        rows[0][i] = [x, y, z, dx];
+        rows[1][i] = [dy, dz, ray.t_min, ray.t_max];
     }
-    is_plain
+    (rows, is_plain)
 }
 
 /// Transposes rows to columns.

@@ -85,9 +85,6 @@ pub(crate) trait Visitor<S: Simd> {
     /// Whether the ray's interval may begin behind its origin.
     const IS_BEHIND: bool;
 
-    /// Whether a node's nearest child is visited first. Otherwise the child with the largest box is, as it is most likely hit.
-    const IS_NEAREST_FIRST: bool = true;
-
     /// Whether a tree's only block is visited only by rays that meet its box. Hits don't depend on that test, but lists of
     /// boxes and candidates do.
     const NEEDS_BOX_TEST: bool;
@@ -123,7 +120,7 @@ pub(crate) struct Walk<S: Simd> {
     /// The number of deferred children.
     depth: u8,
     /// The node or leaf.
-    // Not its key: the next node's address would have to wait for the distance.
+    // Not its key: the address of the next node would have to wait for the distance.
     current: Child,
 }
 
@@ -161,10 +158,10 @@ impl<S: Simd> Walk<S> {
         } else if self.open(bvh, token, child.node_index(), stack, visitor) {
             return false;
         }
-        self.pop::<V>(stack)
+        self.pop(stack)
     }
 
-    /// Goes to the nearest child of a node that the ray meets, and defers the others. Returns whether it meets any.
+    /// Goes to the nearest child of a node that the ray meets, and defers the others. Returns whether the ray meets any.
     #[inline(always)]
     fn open<V: Visitor<S>>(
         &mut self,
@@ -185,26 +182,12 @@ impl<S: Simd> Walk<S> {
         if met == 0 {
             return false;
         }
-        let entries = if V::IS_NEAREST_FIRST {
-            entries
-        } else {
-            [0.0; WIDTH]
-        };
-        let mut a = bvh.next(token, &mut met, &node.child, &entries, visitor);
+        let a = bvh.next(token, &mut met, &node.child, &entries, visitor);
         if met == 0 {
             self.current = child_of(a);
             return true;
         }
         let (first, mut depth) = (self.depth, self.depth);
-        if !V::IS_NEAREST_FIRST {
-            while met != 0 {
-                stack[usize::from(depth)] = a;
-                depth = depth.wrapping_add(1);
-                a = bvh.next(token, &mut met, &node.child, &entries, visitor);
-            }
-            (self.current, self.depth) = (child_of(a), depth);
-            return true;
-        }
         let b = bvh.next(token, &mut met, &node.child, &entries, visitor);
         let (mut nearest, mut farther) = (a.min(b), a.max(b));
         // Sort two and three children without unpredictable branches.
@@ -229,12 +212,12 @@ impl<S: Simd> Walk<S> {
 
     /// Goes to the last deferred child that doesn't lie behind the hit. Returns whether there is none.
     #[inline(always)]
-    fn pop<V: Visitor<S>>(&mut self, stack: &Stack) -> bool {
+    fn pop(&mut self, stack: &Stack) -> bool {
         let mut depth = self.depth;
         while depth != 0 {
             depth -= 1;
             let key = stack[usize::from(depth)];
-            if !V::IS_NEAREST_FIRST || entry_of(key) <= self.limit {
+            if entry_of(key) <= self.limit {
                 (self.current, self.depth) = (child_of(key), depth);
                 return false;
             }

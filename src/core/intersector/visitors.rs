@@ -33,10 +33,9 @@ impl<S: Simd, T: Tester<S>, const MAYBE_COMPACT: bool> Visitor<S> for Nearest<S,
     fn open(&mut self, _: usize) {}
 }
 
-/// Finds any hit. Of a node's children those with large boxes come first: their order is known, so nothing is sorted.
-///
-/// Source: J.-H. Nah, D. Manocha, "SATO: Surface Area Traversal Order for Shadow Ray Tracing", Computer Graphics Forum
-/// 33(6), 2014.
+/// Finds any hit. Visits the nearest child first, too. With the child of the largest box first (Nah, Manocha, SATO, 2014),
+/// shadow rays from diffuse bounces take 5 to 8 % longer, random rays 2 to 11 %, and rays to a lamp −2 to 3 % (69 k and 1.1 M
+/// triangles, AMD Zen 4, 2026-11).
 pub(super) struct Any<T, const MAYBE_COMPACT: bool> {
     pub tester: T,
     pub t_max: f32,
@@ -45,7 +44,6 @@ pub(super) struct Any<T, const MAYBE_COMPACT: bool> {
 
 impl<S: Simd, T: Tester<S>, const MAYBE_COMPACT: bool> Visitor<S> for Any<T, MAYBE_COMPACT> {
     const IS_BEHIND: bool = false;
-    const IS_NEAREST_FIRST: bool = false;
     const NEEDS_BOX_TEST: bool = false;
 
     #[inline(always)]

@@ -16,7 +16,8 @@ pub struct RayLanes<L> {
     /// The coordinates to use as x, y and z. z is the direction's longest component; x and y are the next
     /// two, swapped if z points backwards, which preserves the triangles' winding.
     pub axes: [usize; 3],
-    /// Origins and directions along these axes.
+    /// `origin` and `dir` in the order of `axes`. Stored because indexing an array of vectors by a variable is slow: picking
+    /// the numbers of a single ray before they are put in lanes makes camera rays 5 % faster (bunny, AMD Zen 4, 2026-11).
     pub along_axes: [[L; 3]; 2],
 }
 
@@ -34,7 +35,6 @@ impl<L: Lane> RayLanes<L> {
             dir: all(dir, [0, 1, 2]),
             interval: [L::of(token, ray.t_min), L::of(token, ray.t_max)],
             axes,
-            // Picked before they are put in lanes: an index into an array of vectors is slow.
             along_axes: [all(origin, axes), all(dir, axes)],
         }
     }

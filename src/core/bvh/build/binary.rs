@@ -1,6 +1,6 @@
-//! The binary tree that nodes are made of, by the surface-area heuristic.
+//! Binary tree built by the surface-area heuristic, before it is collapsed.
 
-use super::collapse::{Choice, Costs};
+use super::forest::{Decision, ForestCosts};
 use super::split::Splitter;
 use super::{BLOCK_SIZE, Build, Item, Range, WIDTH};
 use crate::aabb::Aabb;
@@ -10,21 +10,21 @@ use crate::progress::Cancelled;
 const CANCELLABLE_FROM: usize = 1024;
 
 /// A binary tree over a run of primitives.
-pub(super) struct Tree {
+pub(super) struct BinaryTree {
     pub bounds: Aabb,
     /// The run's first primitive, as an index of the items.
     first: u32,
     count: u32,
-    /// Of a run that needs more than one block.
+    /// `None` for a leaf: a run of at most one block.
     inner: Option<Box<Inner>>,
 }
 
 struct Inner {
-    choice: Choice,
-    halves: [Tree; 2],
+    decision: Decision,
+    children: [BinaryTree; 2],
 }
 
-impl Tree {
+impl BinaryTree {
     pub fn count(&self) -> usize {
         self.count as usize
     }
@@ -34,33 +34,28 @@ impl Tree {
         &items[self.first as usize..][..self.count()]
     }
 
-    /// Half the surface of the box.
-    fn half_area(&self) -> f64 {
-        let e = self.bounds.max.as_dvec3() - self.bounds.min.as_dvec3();
-        e.x * (e.y + e.z) + e.y * e.z
-    }
-
-    /// Takes the tree apart into those that the children of its node are made of, the largest last. Returns it if it
-    /// becomes a leaf.
-    pub fn into_children(self) -> Result<Vec<Self>, Self> {
-        let is_node = |inner: &Inner| !inner.choice.is_leaf();
+    /// Splits the tree into the subtrees that become its node's children. Returns the tree itself if it becomes a leaf.
+    pub fn into_node_children(self) -> Result<Vec<Self>, Self> {
+        let is_node = |inner: &Inner| !inner.decision.is_leaf();
         if !self.inner.as_deref().is_some_and(is_node) {
             return Err(self);
         }
         let mut children = Vec::with_capacity(WIDTH);
-        self.replace(WIDTH, &mut children);
-        children.sort_by(|a, b| a.half_area().total_cmp(&b.half_area()));
+        self.push_forest(WIDTH, &mut children);
         Ok(children)
     }
 
-    /// Adds the trees, at most `most`, that replace this one.
-    fn replace(mut self, most: usize, trees: &mut Vec<Self>) {
-        let shares = |inner: &Inner| inner.choice.shares(most);
-        match (self.inner.as_deref().and_then(shares), self.inner.take()) {
+    /// Appends the subtrees, at most `most`, that replace this one.
+    fn push_forest(mut self, most: usize, trees: &mut Vec<Self>) {
+        let distribution = |inner: &Inner| inner.decision.distribution(most);
+        match (
+            self.inner.as_deref().and_then(distribution),
+            self.inner.take(),
+        ) {
             (Some([of_first, of_second]), Some(inner)) => {
-                let [first, second] = inner.halves;
-                first.replace(of_first, trees);
-                second.replace(of_second, trees);
+                let [first, second] = inner.children;
+                first.push_forest(of_first, trees);
+                second.push_forest(of_second, trees);
             }
             (_, inner) => trees.push(Self { inner, ..self }),
         }
@@ -90,17 +85,18 @@ impl<'k> Builder<'k> {
         range: Range,
         first: usize,
         depth: usize,
-    ) -> Result<(Tree, Costs), Cancelled> {
+    ) -> Result<(BinaryTree, ForestCosts), Cancelled> {
         let count = range.items.len();
-        let half_area = self.build.scale.half_area(range.bounds);
-        let mut tree = Tree {
+        // Neither 0 nor NaN, so that few nodes cost less than many even where boxes have no area.
+        let half_area = (self.build.scale.half_area(range.bounds)).max(f32::MIN_POSITIVE);
+        let mut tree = BinaryTree {
             bounds: range.bounds.into(),
             first: first as u32,
             count: count as u32,
             inner: None,
         };
         if count <= BLOCK_SIZE {
-            let costs = Costs::of_leaf(half_area, tree.count);
+            let costs = ForestCosts::of_leaf(half_area, tree.count);
             return Ok((tree, costs));
         }
         if count >= CANCELLABLE_FROM {
@@ -123,9 +119,11 @@ impl<'k> Builder<'k> {
             (self.tree(a, first, depth), self.tree(b, middle, depth))
         };
         let ((a, of_a), (b, of_b)) = (a?, b?);
-        let (costs, choice) = Costs::of_inner(half_area, tree.count, [&of_a, &of_b]);
-        let halves = [a, b];
-        tree.inner = Some(Box::new(Inner { choice, halves }));
+        let (costs, decision) = ForestCosts::of_inner(half_area, tree.count, [&of_a, &of_b]);
+        tree.inner = Some(Box::new(Inner {
+            decision,
+            children: [a, b],
+        }));
         Ok((tree, costs))
     }
 }

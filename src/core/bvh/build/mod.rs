@@ -1,12 +1,14 @@
-//! Tree builder: a binary tree by the surface-area heuristic, then the nodes with eight children that make the best of it.
+//! Tree builder: builds a binary tree by the surface-area heuristic, then collapses it to nodes with eight children at the
+//! least cost.
 //!
 //! Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", IRT 2007 (bins over the
-//!   centroids' box). Differs from it: costs count blocks, as a SIMD test costs the same with full and with empty
-//!   lanes; near the root several threads bin and partition a range together; below it each thread builds separate
-//!   subtrees, which are joined at the end.
+//!   centroids' box); see `forest` for the second step. Differs from it: costs count blocks, as a SIMD test costs the same
+//!   with full and with empty lanes; near the root several threads bin and partition a range together; below it each
+//!   thread builds and later collapses whole subtrees, whose nodes are joined at the end.
 
 mod binary;
 mod collapse;
+mod forest;
 mod join;
 mod partition;
 mod quick;
@@ -18,7 +20,8 @@ mod unbounded;
 use super::{BLOCK_SIZE, Bvh, Child, LEAF_BLOCKS, MAX_DEPTH, NO_PRIMITIVE, Node, WIDTH};
 use crate::aabb::Aabb;
 use crate::progress::Cancelled;
-use binary::{Builder, Tree};
+use binary::Builder;
+use collapse::Collapse;
 use glam::{Vec3A, Vec4};
 use join::joined;
 use rayon::prelude::*;
@@ -29,7 +32,8 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 const MIN_JOB_SIZE: usize = 4096;
 /// Smallest number of subtrees that the threads share.
 const MIN_JOB_COUNT: usize = 256;
-/// The most levels of a binary tree, unless its nodes would be too deep.
+/// The most levels of a binary tree. A node of eight children replaces three levels or more, so its nodes are rarely deeper
+/// than [`MAX_DEPTH`]; otherwise the tree is built again with that many levels.
 const USUAL_LEVELS: usize = 128;
 
 /// A primitive during the build: its box and its index.
@@ -147,7 +151,8 @@ impl Bvh {
     /// Builds a tree over `count` primitives; `bounds_of` gives the box of each.
     ///
     /// Primitives whose boxes are empty or hold a NaN or an infinity are omitted: no ray can hit them.
-    /// `keep_going` is called periodically. The result doesn't depend on the number of threads.
+    /// `keep_going` is called while the binary tree is built, which takes nearly all the time. The result doesn't depend on
+    /// the number of threads.
     ///
     /// # Errors
     /// [`Cancelled`] if `keep_going` returned it.
@@ -167,18 +172,19 @@ impl Bvh {
         if items.is_empty() {
             return Ok(bvh);
         }
-        let part = match build.part(&mut items, USUAL_LEVELS)? {
-            Some(part) => Some(part),
-            None => build.part(&mut items, MAX_DEPTH)?,
+        let part = match build.collapsed(&mut items, USUAL_LEVELS, MAX_DEPTH)? {
+            Some(part) => part,
+            None => build
+                .collapsed(&mut items, MAX_DEPTH, MAX_DEPTH)?
+                .expect("a node is no deeper than its binary tree"),
         };
-        let part = part.expect("a tree of few levels has few levels of nodes");
         let (tree, ()) = rayon::join(|| joined(part), || drop(items));
         (bvh.nodes, bvh.blocks) = (tree.nodes, tree.blocks);
         Ok(bvh)
     }
 }
 
-/// What holds for a whole build.
+/// Parameters of a build.
 #[derive(Clone, Copy)]
 struct Build<'k> {
     bounds: Bounds,
@@ -200,101 +206,29 @@ impl<'k> Build<'k> {
     }
 
     /// Builds a binary tree of at most `levels` levels and collapses it. Returns `None` if a node would be deeper than
-    /// [`MAX_DEPTH`], which takes more levels.
-    fn part(&self, items: &mut [Item], levels: usize) -> Result<Option<Part>, Cancelled> {
+    /// `max_depth`, which is impossible with that many levels.
+    fn collapsed(
+        &self,
+        items: &mut [Item],
+        levels: usize,
+        max_depth: usize,
+    ) -> Result<Option<Part>, Cancelled> {
         let range = Range {
             centres: self.scale.centres(items),
             bounds: self.bounds,
             items,
         };
         let (tree, _) = Builder::new(*self, levels).tree(range, 0, 0)?;
-        let (items, job_size) = (&*items, self.job_size);
-        Ok(Collapse { items, job_size }.root(tree))
-    }
-}
-
-/// Makes the nodes, and frees the binary trees on the way. Its functions return `None` if a node is deeper than
-/// [`MAX_DEPTH`].
-struct Collapse<'a> {
-    items: &'a [Item],
-    job_size: usize,
-}
-
-impl Collapse<'_> {
-    /// Makes the root. It is a node even if the tree has one leaf, so that its box is tested.
-    fn root(&self, tree: Tree) -> Option<Part> {
-        let children = tree.into_children().unwrap_or_else(|tree| vec![tree]);
-        self.node(children, 1)
-    }
-
-    /// Makes a node above these trees.
-    fn node(&self, children: Vec<Tree>, depth: usize) -> Option<Part> {
-        if depth > MAX_DEPTH {
-            return None;
-        }
-        let node = Box::new(Node::around(&children));
-        let parts = children.into_par_iter().with_max_len(1);
-        let parts = parts.map(|tree| self.part(tree, depth + 1));
-        Some(Part::Node(node, parts.collect::<Option<_>>()?))
-    }
-
-    fn part(&self, mut tree: Tree, depth: usize) -> Option<Part> {
-        if tree.count() > self.job_size {
-            tree = match tree.into_children() {
-                Ok(children) => return self.node(children, depth),
-                Err(leaf) => leaf,
-            };
-        }
-        let mut subtree = Subtree::default();
-        let root = subtree.add(tree, self.items, depth)?;
-        subtree.nodes.shrink_to_fit();
-        subtree.blocks.shrink_to_fit();
-        Some(Part::Subtree(root, subtree))
-    }
-}
-
-impl Subtree {
-    /// Adds a tree as a node or a leaf.
-    fn add(&mut self, tree: Tree, items: &[Item], depth: usize) -> Option<Child> {
-        let children = match tree.into_children() {
-            Ok(children) => children,
-            Err(leaf) => return Some(self.add_leaf(leaf.items(items))),
+        let collapse = Collapse {
+            items,
+            job_size: self.job_size,
+            max_depth,
         };
-        if depth > MAX_DEPTH {
-            return None;
-        }
-        let index = self.nodes.len();
-        self.nodes.push(Node::around(&children));
-        for (slot, tree) in children.into_iter().enumerate() {
-            self.nodes[index].child[slot] = self.add(tree, items, depth + 1)?;
-        }
-        Some(Child::node(index))
-    }
-
-    fn add_leaf(&mut self, items: &[Item]) -> Child {
-        debug_assert!(items.len() <= LEAF_BLOCKS * BLOCK_SIZE);
-        let first = self.blocks.len();
-        for part in items.chunks(BLOCK_SIZE) {
-            let mut block = [NO_PRIMITIVE; BLOCK_SIZE];
-            for (lane, item) in block.iter_mut().zip(part) {
-                *lane = item.index();
-            }
-            self.blocks.push(block);
-        }
-        Child::leaf(first, self.blocks.len() - first)
+        Ok(collapse.root(tree))
     }
 }
 
 impl Node {
-    /// A node with the trees' boxes.
-    fn around(trees: &[Tree]) -> Self {
-        let mut node = Self::EMPTY;
-        for (slot, tree) in trees.iter().enumerate() {
-            node.set_bounds(slot, tree.bounds);
-        }
-        node
-    }
-
     fn set_bounds(&mut self, slot: usize, bounds: Aabb) {
         let (lower, upper) = (bounds.min.to_array(), bounds.max.to_array());
         for axis in 0..3 {

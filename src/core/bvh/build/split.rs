@@ -285,7 +285,8 @@ impl Splitter {
     }
 }
 
-fn blocks(count: u32) -> f32 {
+/// The number of blocks that hold this many primitives.
+pub(super) fn blocks(count: u32) -> f32 {
     count.div_ceil(BLOCK_SIZE as u32) as f32
 }
 

@@ -111,26 +111,39 @@ fn nested_clusters(count: i32) -> Vec<Aabb> {
 
 #[test]
 fn a_scene_whose_nodes_would_be_too_deep_is_built_with_fewer_levels() {
-    for (count, is_deep) in [(10, false), (100, true)] {
-        let boxes = nested_clusters(count);
-        let mut items = items_of(boxes.len(), &|primitive| boxes[primitive as usize]);
-        let part = |levels: usize, items: &mut [Item]| {
-            let build = Build::new(items, &|| Ok(()));
-            build.part(items, levels).expect("never cancelled")
-        };
-        assert_eq!(part(USUAL_LEVELS, &mut items).is_none(), is_deep, "{count}");
-        assert!(part(MAX_DEPTH, &mut items).is_some(), "{count}");
-        assert_sound(&build(&boxes), &boxes, boxes.len());
-    }
+    let boxes = nested_clusters(60);
+    assert_sound(&build(&boxes), &boxes, boxes.len());
+    let mut items = items_of(boxes.len(), &|primitive| boxes[primitive as usize]);
+    let build = Build::new(&items, &|| Ok(()));
+    let mut is_built = |levels: usize, max_depth: usize| {
+        let part = build.collapsed(&mut items, levels, max_depth);
+        part.expect("never cancelled").is_some()
+    };
+    // 480 blocks need ten levels.
+    assert!(!is_built(USUAL_LEVELS, 12));
+    assert!(is_built(12, 12));
+    assert!(is_built(USUAL_LEVELS, MAX_DEPTH));
+}
+
+/// The number of children per node.
+fn fill(bvh: &Bvh) -> f64 {
+    let children = bvh.nodes.iter().flat_map(|node| node.child);
+    let count = children.filter(|child| *child != Child::NONE).count();
+    count as f64 / bvh.nodes.len() as f64
 }
 
 #[test]
-fn nodes_above_the_leaves_are_filled() {
-    let bvh = build(&scattered(10_000));
-    let children = bvh.nodes.iter().flat_map(|node| node.child);
-    let count = children.filter(|child| *child != Child::NONE).count();
-    let fill = count as f64 / bvh.nodes.len() as f64;
-    assert!(fill > 6.0, "{fill}");
+fn nodes_are_filled_even_over_boxes_without_area() {
+    let points = |at: fn(f32) -> Vec3| (0..10_000).map(move |k| Aabb::around([at(k as f32)]));
+    // The fill of nodes that split the child of largest area until there are eight is 3.7 for the first.
+    for boxes in [
+        scattered(10_000),
+        points(|_| Vec3::splat(1000.0)).collect(),
+        points(|x| Vec3::new(x, 0.0, 0.0)).collect(),
+    ] {
+        let fill = fill(&build(&boxes));
+        assert!(fill > 6.0, "{fill}");
+    }
 }
 
 #[test]
@@ -200,10 +213,15 @@ fn a_cancelled_build_returns_an_error() {
 
 #[test]
 fn the_tree_does_not_depend_on_the_number_of_threads() {
-    let boxes = scattered(150_000);
+    for boxes in [scattered(150_000), nested_clusters(1000)] {
+        assert_same_with_threads(&boxes);
+    }
+}
+
+fn assert_same_with_threads(boxes: &[Aabb]) {
     let trees = [1, 3].map(|threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.expect("threads").install(|| build(&boxes))
+        pool.expect("threads").install(|| build(boxes))
     });
     assert_eq!(trees[0].blocks, trees[1].blocks);
     assert!(

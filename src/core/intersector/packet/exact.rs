@@ -124,7 +124,8 @@ impl<T: Shape + Into<Triangle>> PacketMethod for Exact<T> {
                         None => round_alone(
                             &tester.rays[i],
                             tester.corners.0,
-                            [primitive[i], slot[i]],
+                            primitive[i],
+                            slot[i],
                             &mut hits[i],
                         ),
                     }
