@@ -16,8 +16,9 @@ pub struct RayLanes<L> {
     /// The coordinates to use as x, y and z. z is the direction's longest component; x and y are the next
     /// two, swapped if z points backwards, which preserves the triangles' winding.
     pub axes: [usize; 3],
-    /// `origin` and `dir` in the order of `axes`. Stored because indexing an array of vectors by a variable is slow: picking
-    /// the numbers of a single ray before they are put in lanes makes camera rays 5 % faster (bunny, AMD Zen 4, 2026-11).
+    /// `origin` and `dir` in the order of `axes`. Stored because indexing an array of vectors by a variable is slow:
+    /// picking the numbers of a single ray before they are put in lanes makes camera rays 5 % faster (bunny, AMD
+    /// Zen 4, 2026-11).
     pub along_axes: [[L; 3]; 2],
 }
 

@@ -13,8 +13,8 @@ use super::{BLOCK_SIZE, LEAF_BLOCKS, WIDTH};
 /// The most trees that may replace one of two children, as the other needs at least one.
 const MAX_FOREST: usize = WIDTH - 1;
 
-/// The least cost of forests of at most 1, 2, …, [`MAX_FOREST`] trees that replace a binary subtree. Each tree is a leaf or
-/// a node with eight children. Costs are in blocks times area.
+/// The least cost of forests of at most 1, 2, …, [`MAX_FOREST`] trees that replace a binary subtree. Each tree is a
+/// leaf or a node with eight children. Costs are in blocks times area.
 #[derive(Clone, Copy)]
 pub(super) struct ForestCosts([f32; MAX_FOREST]);
 

@@ -85,9 +85,9 @@ pub(super) fn round<T: Shape + Into<Triangle>, S: Simd>(
 }
 
 /// Writes the hit of a primitive in a slot, with t, u and v computed with as many digits as they need.
-// Not inlined: this path is rare. It writes through `hit`: an `Option<Hit>` that comes from two paths is put together on the
-// stack by small stores and copied by a large load, which waits for them. That takes a fifth of the time of a packet (bunny,
-// AMD Zen 4, 2026-11).
+// Not inlined: this path is rare. It writes through `hit`: an `Option<Hit>` that comes from two paths is put together
+// on the stack by small stores and copied by a large load, which waits for them. That takes 6 % of the time of a
+// packet (bunny, AMD Zen 4, 2026-11).
 #[inline(never)]
 pub(in crate::intersector) fn round_alone<T: Shape + Into<Triangle>>(
     ray: &Ray,
