@@ -32,8 +32,8 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 const MIN_JOB_SIZE: usize = 4096;
 /// Smallest number of subtrees that the threads share.
 const MIN_JOB_COUNT: usize = 256;
-/// The most levels of a binary tree. A node of eight children replaces three levels or more, so its nodes are rarely deeper
-/// than [`MAX_DEPTH`]; otherwise the tree is built again with that many levels.
+/// The most levels of a binary tree. A node with eight children usually replaces three levels, so nodes are rarely deeper
+/// than [`MAX_DEPTH`]. If one is, the tree is built again with at most `MAX_DEPTH` levels.
 const USUAL_LEVELS: usize = 128;
 
 /// A primitive during the build: its box and its index.
