@@ -135,7 +135,7 @@ fn fill(bvh: &Bvh) -> f64 {
 #[test]
 fn nodes_are_filled_even_over_boxes_without_area() {
     let points = |at: fn(f32) -> Vec3| (0..10_000).map(move |k| Aabb::around([at(k as f32)]));
-    // The fill of nodes that split the child of largest area until there are eight is 3.7 for the first.
+    // Nodes made by splitting the child of largest area until there are eight had 3.7 children in the bunny.
     for boxes in [
         scattered(10_000),
         points(|_| Vec3::splat(1000.0)).collect(),
