@@ -2,10 +2,11 @@
 //! primitives in the boxes.
 //!
 //! [`Bvh::build`] builds it. `walk` passes the blocks of primitives that a ray meets to a visitor, nearest
-//! first; `packet` passes the blocks that any of sixteen rays meets. `nearest` passes the blocks near a point. `record`
-//! turns the steps of a walk into boxes.
+//! first; `packet` passes the blocks that any of sixteen rays meets; `hybrid` splits a packet into single rays. `nearest`
+//! passes the blocks near a point. `record` turns the steps of a walk into boxes.
 
 mod build;
+mod hybrid;
 mod nearest;
 mod packet;
 mod record;
@@ -15,6 +16,7 @@ mod walk;
 use crate::aabb::{Aabb, Planes};
 use crate::simd::prefetch;
 use fearless_simd::Simd;
+pub(crate) use hybrid::SubtreeLists;
 pub(crate) use packet::{PacketVisitor, RayPacket, Slabs};
 pub(crate) use record::Step;
 pub use record::{BoxContents, OpenedBox};
@@ -34,7 +36,7 @@ pub(crate) const BYTES_WHILE_BUILDING: usize = 64;
 pub(crate) const WIDTH: usize = 8;
 
 /// Largest depth of a node; the root has depth 1. It keeps the stack of a walk from overflowing: on each level a node
-/// defers at most seven of its children.
+/// defers at most seven of its children, and one more of the last if it defers all.
 const MAX_DEPTH: usize = 34;
 
 /// Largest number of blocks per leaf.

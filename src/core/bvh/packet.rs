@@ -4,7 +4,7 @@
 //! Hierarchies", ACM TOG 26(1), 2007. Differs from it: a node's eight boxes are tested at once against the
 //! interval that encloses all the rays, and so are the boxes of a block's triangles, which avoids tests of
 //! the leaves that no ray comes near. Testing the boxes that the interval meets against all the rays would
-//! cull only one in a hundred.
+//! cull only one in a hundred while the rays are close together; `hybrid` tests them, too, once the rays diverge.
 //!
 //! Each ray gets bit for bit the same result as alone. The interval's bounds are rounded like the rays'
 //! distances, and rounding is monotone, so no box that a ray meets is omitted. A hit counts if the ray meets
@@ -24,9 +24,9 @@ const NOTHING: u64 = u64::MAX;
 
 /// Handler of the blocks that rays meet.
 pub(crate) trait PacketVisitor<S: Simd> {
-    /// Processes a block and returns the farthest t of interest of each ray. `farthest` is the largest of
-    /// these over all rays, plus a small margin.
-    fn visit(&mut self, block: usize, slabs: &Slabs<S>, farthest: f32) -> f32x16<S>;
+    /// Processes a block and returns the farthest t of interest of each ray, or `None` to give up the packet. `farthest`
+    /// is the largest of these over all rays, plus a small margin.
+    fn visit(&mut self, block: usize, slabs: &Slabs<S>, farthest: f32) -> Option<f32x16<S>>;
 
     /// Announces a block that will be visited soon, unless a hit makes that unnecessary.
     fn announce(&self, block: usize);
@@ -45,7 +45,7 @@ pub(crate) struct RayPacket<S: Simd> {
 }
 
 impl<S: Simd> RayPacket<S> {
-    /// Makes a packet. `None` if the rays' directions differ in sign, or if a ray starts behind its origin or
+    /// Makes a packet. `None` if the rays' directions differ in sign, or if a ray starts or ends behind its origin or
     /// excludes a primitive; such rays are traced one by one.
     #[inline(always)]
     pub fn new(token: S, rays: &[Ray; PACKET]) -> Option<Self> {
@@ -79,14 +79,15 @@ impl<S: Simd> RayPacket<S> {
     }
 }
 
-/// The first and the next four numbers of each ray, and whether no ray starts behind its origin or excludes a primitive.
+/// The first and the next four numbers of each ray, and whether no ray starts or ends behind its origin or excludes a
+/// primitive.
 // Not inlined: otherwise the compiler replaces the shuffles of `columns` by gathers, which take a ninth of the time of a
 // packet (bunny, AVX-512, AMD Zen 4, 2026-11).
 #[inline(never)]
 fn rows(rays: &[Ray; PACKET]) -> ([[[f32; 4]; PACKET]; 2], bool) {
     let (mut rows, mut is_plain) = ([[[0.0; 4]; PACKET]; 2], true);
     for (i, ray) in rays.iter().enumerate() {
-        is_plain &= ray.t_min >= 0.0 && ray.exclude.is_none();
+        is_plain &= ray.t_min >= 0.0 && ray.t_max >= 0.0 && ray.exclude.is_none();
         let ([x, y, z], [dx, dy, dz]) = (ray.origin.to_array(), ray.dir.to_array());
         rows[0][i] = [x, y, z, dx];
         rows[1][i] = [dy, dz, ray.t_min, ray.t_max];
@@ -129,7 +130,7 @@ pub(crate) struct Slabs<S: Simd> {
 
 impl<S: Simd> Slabs<S> {
     #[inline(always)]
-    fn new(token: S, rays: &RayPacket<S>) -> Self {
+    pub fn new(token: S, rays: &RayPacket<S>) -> Self {
         let ahead = f32x16::splat(token, AHEAD);
         let t_min = start_slackened(rays.t_min);
         let all = |x: f32| f32x8::splat(token, x);
@@ -217,20 +218,21 @@ impl<S: Simd> Slabs<S> {
 }
 
 impl Bvh {
-    /// Passes each block that any of the rays meets to the visitor.
+    /// Passes to the visitor each block that any of the rays may meet before its end. Returns whether the visitor processed
+    /// them all.
     #[inline(always)]
     pub(crate) fn walk_packet<S: Simd, V: PacketVisitor<S>>(
         &self,
         token: S,
-        rays: &RayPacket<S>,
+        slabs: &Slabs<S>,
+        ends: f32x16<S>,
         stack: &mut Stack,
         visitor: &mut V,
-    ) {
+    ) -> bool {
         if self.nodes.is_empty() {
-            return;
+            return true;
         }
-        let slabs = Slabs::new(token, rays);
-        let mut farthest = end_slackened(rays.t_max).reduce_max();
+        let mut farthest = end_slackened(ends).reduce_max();
         let mut depth = 0u8;
         let mut current = Child::node(0);
         loop {
@@ -257,14 +259,16 @@ impl Bvh {
             if current != Child::NONE {
                 let first = current.first_block();
                 for block in first..first + current.block_count() {
-                    let limits = visitor.visit(block, &slabs, farthest);
+                    let Some(limits) = visitor.visit(block, slabs, farthest) else {
+                        return false;
+                    };
                     farthest = end_slackened(limits).reduce_max();
                 }
             }
             // Pop a deferred child, skipping those that now lie behind all hits.
             loop {
                 if depth == 0 {
-                    return;
+                    return true;
                 }
                 depth -= 1;
                 let put_off = stack[usize::from(depth)];
@@ -276,8 +280,14 @@ impl Bvh {
         }
     }
 
+    /// Prefetches a child.
     #[inline(always)]
-    fn announce<S: Simd, V: PacketVisitor<S>>(&self, token: S, child: Child, visitor: &V) {
+    pub(super) fn announce<S: Simd, V: PacketVisitor<S>>(
+        &self,
+        token: S,
+        child: Child,
+        visitor: &V,
+    ) {
         if child.is_leaf() {
             visitor.announce(child.first_block());
         } else {

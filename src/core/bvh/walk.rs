@@ -15,6 +15,7 @@
 //! lie in their boxes and are ordered exactly, so it needs neither rule. `slab` derives the padding that a
 //! box needs for the hits that its triangles' kernels are right to accept.
 
+use super::hybrid::SubtreeLists;
 use super::slab::SlabRay;
 use super::{Bvh, Child, MAX_DEPTH, Node, WIDTH};
 use crate::lane::Lane;
@@ -42,7 +43,7 @@ const RANK_SLACK: f32 = 16.0 * f32::EPSILON;
 /// compare less. A one-byte index can't leave the stack; the tree's depth keeps it from wrapping.
 pub(crate) type Stack = [u64; 256];
 
-const _: () = assert!(MAX_DEPTH * (WIDTH - 1) < 256);
+const _: () = assert!(MAX_DEPTH * (WIDTH - 1) + 1 < 256);
 
 /// The number of interleaved walks, each with its own stack; see [`interleaved`](crate::intersector::interleaved).
 pub(crate) const WALKS: usize = 8;
@@ -50,15 +51,21 @@ pub(crate) const WALKS: usize = 8;
 /// The stacks of interleaved walks.
 pub(crate) type Stacks = [Stack; WALKS];
 
-thread_local! {
-    static SPARE: Cell<Option<Box<Stacks>>> = const { Cell::new(None) };
+/// The scratch memory of a thread's walks.
+struct WalkScratch {
+    stacks: Stacks,
+    lists: SubtreeLists,
 }
 
-/// Stacks that return to their thread when dropped. Zeroing one for each ray costs 10 to 25 % (2026-11).
-pub(crate) struct LentStack(Option<Box<Stacks>>);
+thread_local! {
+    static SPARE: Cell<Option<Box<WalkScratch>>> = const { Cell::new(None) };
+}
+
+/// Scratch memory that returns to its thread when dropped. Zeroing a stack for each ray costs 10 to 25 % (2026-11).
+pub(crate) struct LentStack(Option<Box<WalkScratch>>);
 
 impl LentStack {
-    /// The thread's stacks, or new ones if those are lent.
+    /// The thread's scratch memory, or new memory if that is lent.
     pub fn new() -> Self {
         Self(SPARE.take())
     }
@@ -68,9 +75,24 @@ impl LentStack {
         &mut self.all()[0]
     }
 
+    /// The stack of one walk, and the lists of a packet's rays.
+    pub fn with_lists(&mut self) -> (&mut Stack, &mut SubtreeLists) {
+        let scratch = self.scratch();
+        (&mut scratch.stacks[0], &mut scratch.lists)
+    }
+
     /// The stacks of interleaved walks.
     pub fn all(&mut self) -> &mut Stacks {
-        self.0.get_or_insert_with(|| Box::new([[0; 256]; WALKS]))
+        &mut self.scratch().stacks
+    }
+
+    fn scratch(&mut self) -> &mut WalkScratch {
+        self.0.get_or_insert_with(|| {
+            Box::new(WalkScratch {
+                stacks: [[0; 256]; WALKS],
+                lists: SubtreeLists::EMPTY,
+            })
+        })
     }
 }
 
@@ -115,7 +137,7 @@ pub(crate) fn rank<L: Lane>(t: L, floor: L) -> L {
 /// The state of a ray's walk through a tree, which is at a node or a leaf.
 pub(crate) struct Walk<S: Simd> {
     slabs: SlabRay<S>,
-    /// The distance up to which boxes are visited.
+    /// The distance up to which boxes are visited; −∞ once the visitor has ended the walk.
     limit: f32,
     /// The number of deferred children.
     depth: u8,
@@ -152,7 +174,10 @@ impl<S: Simd> Walk<S> {
             for block in start..start + count {
                 match visitor.visit(block, &self.slabs) {
                     ControlFlow::Continue(t) => self.limit = end_slackened(t),
-                    ControlFlow::Break(()) => return true,
+                    ControlFlow::Break(()) => {
+                        self.limit = f32::NEG_INFINITY;
+                        return true;
+                    }
                 }
             }
         } else if self.open(bvh, token, child.node_index(), stack, visitor) {
@@ -244,6 +269,28 @@ impl Bvh {
                 return;
             }
             while !walk.step(self, token, stack, visitor) {}
+        }
+    }
+
+    /// Passes to the visitor each block that the ray meets in the subtrees with these keys, nearest first.
+    #[inline(always)]
+    pub(crate) fn walk_subtrees<S: Simd, V: Visitor<S>>(
+        &self,
+        token: S,
+        ray: &Ray,
+        keys: &[u64],
+        stack: &mut Stack,
+        visitor: &mut V,
+    ) {
+        let mut walk = Walk::start(token, ray);
+        // A plain loop: functions called by an iterator may be compiled without the CPU's features.
+        let mut i = 0;
+        while i < keys.len() {
+            if entry_of(keys[i]) <= walk.limit {
+                (walk.current, walk.depth) = (child_of(keys[i]), 0);
+                while !walk.step(self, token, stack, visitor) {}
+            }
+            i += 1;
         }
     }
 

@@ -167,11 +167,7 @@ impl<'a, M: Method, S: Simd> Searches<S> for AnySearches<'a, M, S> {
     #[inline(always)]
     fn start(&self, index: usize) -> Self::Search {
         let (blocks, ray) = (&self.intersector.blocks, &self.rays[index]);
-        Any {
-            tester: M::tester(blocks, self.token, ray, &mut []),
-            t_max: ray.t_max,
-            is_hit: false,
-        }
+        Any::new(M::tester(blocks, self.token, ray, &mut []), ray.t_max)
     }
 
     #[inline(always)]

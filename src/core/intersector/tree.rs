@@ -98,11 +98,8 @@ impl<M: Method> TreeIntersector<M> {
         let mut scratch = Scratch::new();
         for (ray, is_hit) in rays.iter().zip(are_hits) {
             if !is_behind(ray) {
-                let mut visitor = Any::<_, MAYBE_COMPACT> {
-                    tester: M::tester(&self.blocks, token, ray, scratch.rows()),
-                    t_max: ray.t_max,
-                    is_hit: false,
-                };
+                let tester = M::tester(&self.blocks, token, ray, scratch.rows());
+                let mut visitor = Any::<_, MAYBE_COMPACT>::new(tester, ray.t_max);
                 self.blocks.bvh.walk(token, ray, stack, &mut visitor);
                 *is_hit = visitor.is_hit;
             }

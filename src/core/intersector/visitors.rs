@@ -38,8 +38,20 @@ impl<S: Simd, T: Tester<S>, const MAYBE_COMPACT: bool> Visitor<S> for Nearest<S,
 /// up to 11 %, and rays to a lamp about as long (69 k and 1.1 M triangles, AMD Zen 4, 2026-11).
 pub(super) struct Any<T, const MAYBE_COMPACT: bool> {
     pub tester: T,
-    pub t_max: f32,
+    t_max: f32,
     pub is_hit: bool,
+}
+
+impl<T, const MAYBE_COMPACT: bool> Any<T, MAYBE_COMPACT> {
+    /// A search up to `t_max`.
+    #[inline(always)]
+    pub fn new(tester: T, t_max: f32) -> Self {
+        Self {
+            tester,
+            t_max,
+            is_hit: false,
+        }
+    }
 }
 
 impl<S: Simd, T: Tester<S>, const MAYBE_COMPACT: bool> Visitor<S> for Any<T, MAYBE_COMPACT> {
