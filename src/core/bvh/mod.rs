@@ -36,7 +36,7 @@ pub(crate) const BYTES_WHILE_BUILDING: usize = 64;
 pub(crate) const WIDTH: usize = 8;
 
 /// Largest depth of a node; the root has depth 1. It keeps the stack of a walk from overflowing: on each level a node
-/// defers at most seven of its children, and one more of the last if it defers all.
+/// defers at most seven of its children. While a packet is split, the last node defers all eight.
 const MAX_DEPTH: usize = 34;
 
 /// Largest number of blocks per leaf.
