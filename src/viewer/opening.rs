@@ -62,7 +62,7 @@ impl Loading {
     /// Shows the phase, the bytes read and a cancel button. Returns whether it was clicked.
     #[must_use]
     pub fn progress_ui(&self, ui: &mut egui::Ui) -> bool {
-        let row = ui.horizontal(|ui| {
+        let row = ui.horizontal_wrapped(|ui| {
             progress_ui(ui, &self.progress);
             ui.button("Cancel").clicked()
         });

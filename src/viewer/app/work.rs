@@ -95,7 +95,7 @@ static WORK: &[Work] = &[
 /// Shows a spinner and, after a while, a *Cancel* button. Returns whether it was clicked.
 pub(crate) fn working_ui(ui: &mut egui::Ui, title: &str, elapsed: Duration) -> bool {
     ui.ctx().request_repaint_after(FRAME);
-    let row = ui.horizontal(|ui| {
+    let row = ui.horizontal_wrapped(|ui| {
         ui.spinner();
         ui.label(format!("{title}, {:.1} s", elapsed.as_secs_f64()));
         let is_long = elapsed >= CANCELLED_AFTER;
@@ -195,5 +195,24 @@ mod tests {
         wait(&mut window, "the kernel", |app| {
             app.document().intersector().kernel().name == "moller-trumbore"
         });
+    }
+
+    #[test]
+    fn work_can_be_cancelled_in_a_narrow_window() {
+        let Some(mut window) = app(None) else { return };
+        let hold = sabotage::hold("pack");
+        let settings = &mut window.state_mut().seen.settings;
+        settings.keep_kernel("moller-trumbore");
+        while window.query_by_label("Cancel").is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(20));
+            window.step();
+        }
+        // A window of 800 × 600 pixels at 300 %.
+        window.set_size(egui::vec2(267.0, 200.0));
+        window.run_steps(3);
+        let button = window.get_by_label("Cancel").rect();
+        let screen = window.ctx.content_rect();
+        assert!(screen.contains_rect(button), "{button:?} in {screen:?}");
+        drop(hold);
     }
 }

@@ -9,7 +9,8 @@ pub fn progress_ui(ui: &mut egui::Ui, progress: &Progress) {
     ui.ctx().request_repaint_after(Duration::from_millis(50));
     match progress.part_of_phase() {
         Some(part) => {
-            let bar = egui::ProgressBar::new(part).desired_width(260.0);
+            let width = ui.available_width().min(260.0);
+            let bar = egui::ProgressBar::new(part).desired_width(width);
             ui.add(bar.text(text(progress)));
         }
         None => {

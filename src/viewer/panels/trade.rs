@@ -33,7 +33,7 @@ pub fn measure_ui(ui: &mut egui::Ui) -> bool {
 pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -> bool {
     let rows = trade.rows();
     let mut is_wanted_again = false;
-    ui.horizontal(|ui| match trade.state() {
+    ui.horizontal_wrapped(|ui| match trade.state() {
         TradeState::Measuring => {
             let title = format!(
                 "Measuring kernel {} of {}",
