@@ -19,6 +19,8 @@ use std::ops::Range;
 pub const TILE_PX: u32 = 48;
 /// Block sizes, in pixels.
 pub const STEPS: [u32; 8] = [1, 2, 3, 4, 6, 8, 12, 16];
+/// Width and height, in blocks, of the groups of blocks that are traced one after another.
+const GROUP: u32 = 4;
 /// Maximum number of samples per pixel.
 pub const MAX_SAMPLES: u32 = 65536;
 /// Maximum number of samples that a pass adds to a pixel, so that tiles of late passes don't take long.
@@ -34,9 +36,40 @@ pub struct PixelRect {
 }
 
 impl PixelRect {
-    /// Number of pixels.
-    pub(crate) fn pixel_count(self) -> usize {
-        (self.max - self.min).as_usizevec2().element_product()
+    /// All pixels of a picture of this size.
+    pub const fn whole(size: UVec2) -> Self {
+        Self {
+            min: UVec2::ZERO,
+            max: size,
+        }
+    }
+
+    /// The top left pixels of its blocks of `step` × `step` pixels, in groups of [`GROUP`] × [`GROUP`] blocks.
+    pub(crate) fn blocks(self, step: u32) -> impl Iterator<Item = UVec2> {
+        let starts = move |from: u32, to: u32| (from..to).step_by((GROUP * step) as usize);
+        let groups = starts(self.min.y, self.max.y)
+            .flat_map(move |y| starts(self.min.x, self.max.x).map(move |x| UVec2::new(x, y)));
+        groups
+            .flat_map(move |group| {
+                (0..GROUP * GROUP).map(move |k| group + UVec2::new(k % GROUP, k / GROUP) * step)
+            })
+            .filter(move |corner| corner.cmplt(self.max).all())
+    }
+
+    /// The number of its blocks of `step` × `step` pixels across and down.
+    pub fn block_count(self, step: u32) -> UVec2 {
+        (self.max - self.min + (step - 1)) / step
+    }
+
+    /// The index of a pixel's block in the order of [`blocks`](Self::blocks).
+    fn block_index(self, step: u32, pixel: UVec2) -> usize {
+        let count = self.block_count(step);
+        let block = (pixel - self.min) / step;
+        let group = block / GROUP * GROUP;
+        let size = (count - group).min(UVec2::splat(GROUP));
+        let in_group = block - group;
+        let before = group.y * count.x + group.x * size.y;
+        (before + in_group.y * size.x + in_group.x) as usize
     }
 
     /// The smallest rectangle around both.
@@ -67,6 +100,14 @@ pub enum Pass {
 }
 
 impl Pass {
+    /// Size in pixels of the blocks of which the pass traces at most one pixel.
+    pub(crate) fn step(self) -> u32 {
+        match self {
+            Self::Lattice { step } => step,
+            Self::Samples { .. } => 1,
+        }
+    }
+
     /// Number of samples that the pass adds to each of its pixels.
     pub fn samples_per_pixel(self) -> u32 {
         match self {
@@ -165,10 +206,7 @@ impl Plan {
 
     /// The block size of the first pass, in pixels.
     pub fn first_step(&self) -> u32 {
-        match self.pass(0) {
-            Pass::Lattice { step } => step,
-            Pass::Samples { .. } => 1,
-        }
+        self.pass(0).step()
     }
 
     /// Number of work units in all passes.
@@ -214,29 +252,23 @@ impl Plan {
         (tile.y * size.x.div_ceil(TILE_PX) + tile.x) as usize
     }
 
-    /// The pixels that a work unit traces, in blocks of 4 × 4, so that neighbouring rays are traced together.
+    /// The pixels that a work unit traces, in groups of 4 × 4 blocks, so that neighbouring rays are traced together.
     pub fn pixels(&self, unit: WorkUnit) -> impl Iterator<Item = UVec2> + '_ {
-        const BLOCK: u32 = 4;
         let rect = self.tile_rect(unit.tile);
         let pass = self.passes[unit.pass];
-        let step = match pass {
-            Pass::Lattice { step } => step,
-            Pass::Samples { .. } => 1,
-        };
         let coarser = match pass {
             Pass::Lattice { .. } => &self.passes[..unit.pass],
             Pass::Samples { .. } => &[],
         };
-        let starts = move |from: u32, to: u32| (from..to).step_by((BLOCK * step) as usize);
-        let blocks = starts(rect.min.y, rect.max.y)
-            .flat_map(move |y| starts(rect.min.x, rect.max.x).map(move |x| UVec2::new(x, y)));
-        blocks
-            .flat_map(move |block| {
-                (0..BLOCK * BLOCK).map(move |k| block + UVec2::new(k % BLOCK, k / BLOCK) * step)
-            })
-            .filter(move |p| p.cmplt(rect.max).all())
-            .map(move |p| Self::representative(self.size, p, step))
+        rect.blocks(pass.step())
+            .map(move |corner| Self::representative(self.size, corner, pass.step()))
             .filter(move |&pixel| !coarser.iter().any(|&pass| self.lattice_holds(pass, pixel)))
+    }
+
+    /// The index of a pixel's block among those of its tile, in the order in which the first pass traces them.
+    pub(crate) fn index_in_first_pass(&self, pixel: UVec2) -> usize {
+        let tile = self.tile_rect(self.tile_of(pixel));
+        tile.block_index(self.first_step(), pixel)
     }
 
     /// Position of a sample in its pixel.
@@ -279,6 +311,26 @@ mod tests {
                     }
                 }
                 assert!(seen.iter().all(|s| *s == [1; 4]), "{size} {step}");
+            }
+        }
+    }
+
+    #[test]
+    fn each_pixel_knows_the_index_of_its_block_in_the_first_pass() {
+        for size in [UVec2::new(1, 1), UVec2::new(100, 61), UVec2::new(49, 2)] {
+            for step in STEPS {
+                let plan = Plan::new(size, step, 1);
+                for tile in 0..plan.tile_count() {
+                    let traced: Vec<UVec2> = plan.pixels(WorkUnit { pass: 0, tile }).collect();
+                    let rect = plan.tile_rect(tile);
+                    for y in rect.min.y..rect.max.y {
+                        for pixel in (rect.min.x..rect.max.x).map(|x| UVec2::new(x, y)) {
+                            let index = plan.index_in_first_pass(pixel);
+                            let expected = Plan::representative(size, pixel, step);
+                            assert_eq!(traced[index], expected, "{pixel} of {size} by {step}");
+                        }
+                    }
+                }
             }
         }
     }

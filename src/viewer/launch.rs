@@ -139,6 +139,10 @@ impl eframe::App for InWindow {
         self.with(|app| app.ui(ui, frame));
     }
 
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        self.with(|app| app.clear_color(visuals))
+    }
+
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         self.with(|app| app.save(storage));
     }

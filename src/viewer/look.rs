@@ -98,15 +98,11 @@ impl Development {
     ) -> Option<(&'a [[u8; 4]], PixelRect)> {
         let size = film.size();
         let (is_same_look, is_same_size) = (look == self.look, size == self.size);
-        let all = PixelRect {
-            min: UVec2::ZERO,
-            max: size,
-        };
         let rect = match changed {
             Some(rect) if is_same_look && is_same_size => rect,
             // A new film has nothing to show before its first pixels change.
             None if is_same_look || !is_same_size => return None,
-            _ => all,
+            _ => PixelRect::whole(size),
         };
         (self.look, self.size) = (look, size);
         let count = if look.is_plain() {
@@ -174,16 +170,13 @@ mod tests {
             let taken = plan.pass(unit.pass).samples();
             taken.for_each(|k| assert!(sum.add(Vec3::splat(samples[k as usize]))));
             let sums = plan.pixels(unit).map(|_| sum).collect();
-            film.add(&TileSamples { unit, sums });
+            film.add(TileSamples { unit, sums });
         }
         film
     }
 
     fn all() -> PixelRect {
-        PixelRect {
-            min: UVec2::ZERO,
-            max: SIZE,
-        }
+        PixelRect::whole(SIZE)
     }
 
     #[test]
@@ -218,7 +211,7 @@ mod tests {
         assert!(sum.add_seen(background, Seen::Background));
         let sums = vec![sum; 6];
         let unit = plan.unit(0);
-        film.add(&TileSamples { unit, sums });
+        film.add(TileSamples { unit, sums });
         let (pixels, _) = development
             .update(&film, Some(all()), brighter)
             .expect("changed");

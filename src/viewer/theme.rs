@@ -26,6 +26,12 @@ pub fn apply(ctx: &egui::Context) {
     }
 }
 
+/// The frame of a panel. It is transparent: the window is cleared with the panels' colour. If the bars at the window's top
+/// and bottom fill themselves, Mesa's llvmpipe takes 5 ms more CPU time per frame (1280 pixels wide, AVX2, 2026-11).
+pub fn panel_frame(style: &egui::Style) -> egui::Frame {
+    egui::Frame::side_top_panel(style).fill(Color32::TRANSPARENT)
+}
+
 /// egui's colours, except those that are hard to read.
 fn visuals(theme: Theme) -> Visuals {
     let (mut visuals, outline) = match theme {

@@ -139,8 +139,9 @@ impl Tracer {
         self.luminance.1.filter(|&luminance| luminance > 0.0)
     }
 
-    fn add(&mut self, tile: &TileResult) {
-        let rect = self.film.add(&tile.samples);
+    fn add(&mut self, tile: TileResult) {
+        let unit = tile.samples.unit;
+        let rect = self.film.add(tile.samples);
         self.changed = Some(self.changed.map_or(rect, |changed| changed.union(rect)));
         self.non_finite += u64::from(tile.non_finite);
         self.hits += u64::from(tile.hits);
@@ -149,7 +150,6 @@ impl Tracer {
         if let Some(posted) = &mut self.posted {
             posted.lasted = posted.at.elapsed();
         }
-        let unit = tile.samples.unit;
         if is_lit && matches!(self.film.plan().pass(unit.pass), Pass::Samples { .. }) {
             self.noise.update(&self.film, unit.tile);
         }
@@ -186,10 +186,7 @@ impl Tracer {
         }
         self.film.set_camera(request.context.camera);
         if !is_same_scene {
-            self.changed = Some(PixelRect {
-                min: UVec2::ZERO,
-                max: size,
-            });
+            self.changed = Some(PixelRect::whole(size));
             self.shown = Some((Arc::clone(&request.context.scene), request.context.camera));
             (self.shows_parts, self.shows_lit) = (true, false);
         }
@@ -249,8 +246,7 @@ impl Tracer {
 
     /// Reports the whole picture as changed.
     pub fn show_again(&mut self) {
-        let (min, max) = (UVec2::ZERO, self.film.size());
-        self.changed_before = Some(PixelRect { min, max });
+        self.changed_before = Some(PixelRect::whole(self.film.size()));
     }
 
     fn is_shown(&self, context: &Context) -> bool {

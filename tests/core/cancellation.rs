@@ -112,7 +112,7 @@ fn complete(renderer: &Renderer, job: &Job) -> Film {
         assert_eq!(tile.samples.sums.len(), job.plan.pixels(unit).count());
         assert!(!seen.contains(&unit), "{unit:?} came twice");
         seen.push(unit);
-        film.add(&tile.samples);
+        film.add(tile.samples);
     }
     film
 }
@@ -209,7 +209,7 @@ fn a_pause_renders_the_first_pass_and_holds_the_rest_until_resumed() {
                 panic!("nothing panics here");
             };
             assert_eq!(tile.samples.unit.pass, 0);
-            film.add(&tile.samples);
+            film.add(tile.samples);
         }
         // The whole picture takes about 20 ms.
         thread::sleep(Duration::from_millis(200));
@@ -219,7 +219,7 @@ fn a_pause_renders_the_first_pass_and_holds_the_rest_until_resumed() {
         renderer.resume();
         while !film.is_complete() {
             if let Message::Tile(tile) = renderer.wait_next() {
-                film.add(&tile.samples);
+                film.add(tile.samples);
             }
         }
         film

@@ -39,7 +39,7 @@ fn posted(renderer: &mut Renderer, job: Job) -> Vec<[u8; 4]> {
     renderer.post(job);
     while !film.is_complete() {
         match renderer.wait_next() {
-            Message::Tile(tile) => _ = film.add(&tile.samples),
+            Message::Tile(tile) => _ = film.add(tile.samples),
             Message::Panicked(_, panic) => panic!("{panic}"),
         }
     }

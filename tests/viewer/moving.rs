@@ -1,6 +1,6 @@
 //! Tests of the pointer while the camera moves: a click inspects the ray whose colour the pixel shows.
 
-use crate::harness::{Window, app_started, bare, press, wait};
+use crate::harness::{Window, app_started, bare, bare_with, press, wait};
 use crate::inspecting::{corner, middle};
 use crate::pointer::{on_the_mesh, rest};
 use egui::{Event, Key, Modifiers, PointerButton};
@@ -8,6 +8,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::{DVec2, DVec3, UVec2, Vec2};
 use hitscope::app::{App, StartOptions};
 use hitscope::preferences::Preferences;
+use hitscope::quality::MovingResolution;
 use hitscope::settings::Settings;
 use hitscope::theme;
 use hitscope_core::film::ShownPixel;
@@ -313,4 +314,46 @@ fn clicks_while_the_file_is_loaded_again_inspect_what_the_screen_shows() {
         }
     }
     assert!(hits > 6, "{hits} hits");
+}
+
+/// The pixels of the picture as they are drawn.
+fn drawn(window: &mut Window) -> Vec<[u8; 4]> {
+    let image = window.render().expect("drawn");
+    let corner = window.get_by_label("Rendered picture").rect().min;
+    let size = window.state().film().size();
+    let [x, y] = [corner.x, corner.y].map(|x| x as u32);
+    let cropped = image::imageops::crop_imm(&image, x, y, size.x, size.y);
+    cropped.to_image().pixels().map(|pixel| pixel.0).collect()
+}
+
+#[test]
+fn a_picture_of_blocks_is_drawn_as_the_film_has_it() {
+    for (moving, block_px) in [(MovingResolution::Half, 2), (MovingResolution::Quarter, 4)] {
+        let settings = Settings {
+            moving,
+            ..Settings::default()
+        };
+        let Some(mut window) = bare_with(settings) else {
+            return;
+        };
+        press(&mut window, Key::P);
+        // Blocks at the right and lower borders are whole or cut: both sizes change.
+        for width in 800..804 {
+            window.set_size(egui::vec2(width as f32, 1397.0 - width as f32));
+            window.run_steps(5);
+            let is_begun =
+                |app: &App| app.film().passes_done() == 1 && app.film().size().x == width;
+            wait(&mut window, "the first pass", is_begun);
+            window.run_steps(3);
+            assert_eq!(window.state().film().block_px(), block_px);
+            let drawn = drawn(&mut window);
+            assert!(drawn == window.state().film().pixels(), "blocks, {width}");
+        }
+        press(&mut window, Key::P);
+        wait(&mut window, "all samples", App::is_settled);
+        window.run_steps(3);
+        assert_eq!(window.state().film().block_px(), 1);
+        let drawn = drawn(&mut window);
+        assert!(drawn == window.state().film().pixels(), "pixels");
+    }
 }

@@ -93,6 +93,9 @@ fn the_window_opens_and_its_screenshot_shows_the_scene() {
     let film = window.state().film();
     let corner = window.get_by_label("Rendered picture").rect().min;
     let size = film.size();
+    // Beside the menus.
+    let fill = window.ctx.global_style().visuals.panel_fill.to_array();
+    assert_eq!(image.get_pixel(1000, 10).0, fill, "the panels' colour");
     let cropped =
         image::imageops::crop_imm(&image, corner.x as u32, corner.y as u32, size.x, size.y);
     let shown: Vec<[u8; 4]> = cropped.to_image().pixels().map(|pixel| pixel.0).collect();

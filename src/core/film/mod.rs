@@ -4,6 +4,7 @@
 //! aren't clamped. Pixels without a sample show the colour of their block from a coarser pass; those of a tile that the
 //! plan hasn't reached keep the colours of the plan before it.
 
+mod adding;
 mod noise;
 mod shown;
 mod sum;
@@ -13,7 +14,7 @@ pub use shown::{ShownPixel, ShownPixels};
 pub use sum::{SampleSum, Seen};
 
 use crate::Camera;
-use crate::plan::{Pass, PixelRect, Plan, WorkUnit};
+use crate::plan::{PixelRect, Plan, WorkUnit};
 use crate::tone::Display;
 use glam::{UVec2, Vec3};
 use std::collections::TryReserveError;
@@ -34,8 +35,20 @@ struct TileState {
     /// Whether the tile has samples of the plan. If not, its counts and block sizes are those of an earlier plan, and its
     /// sums are meaningless.
     has_samples: bool,
+    /// Until a later pass of the tile arrives. The film's sums, counts and block sizes of the tile are meaningless then.
+    first_pass: Option<FirstPass>,
     /// The camera of the picture that the pixels show, if they show one and it is known.
     camera: Option<Camera>,
+}
+
+/// A tile's samples of a first pass of blocks, of the plan or of an earlier one. While the camera moves, pictures end with
+/// this pass, so that spreading its samples over the film would be wasted time.
+#[derive(Clone, Debug)]
+struct FirstPass {
+    /// Size of the blocks in pixels.
+    step: u8,
+    /// Sums in the order of the pass.
+    sums: Vec<SampleSum>,
 }
 
 /// A picture that is being rendered.
@@ -59,7 +72,7 @@ pub struct Film {
     tiles_done: Vec<usize>,
 }
 
-/// Memory of a film.
+/// Memory of a film whose first pass traces each pixel.
 pub const BYTES_PER_PIXEL: usize =
     size_of::<SampleSum>() + size_of::<u32>() + size_of::<u8>() + size_of::<[u8; 4]>();
 
@@ -115,55 +128,6 @@ impl Film {
         self.camera = Some(camera);
     }
 
-    /// Adds a tile and returns the pixels that changed.
-    pub fn add(&mut self, tile: &TileSamples) -> PixelRect {
-        let pass = self.plan.pass(tile.unit.pass);
-        let rect = self.plan.tile_rect(tile.unit.tile);
-        // A later pass has no samples where an earlier one has.
-        let is_alone = self.begin_tile(tile.unit.tile) && tile.unit.pass == 0;
-        let samples = pass.samples_per_pixel();
-        let pixels: Vec<UVec2> = self.plan.pixels(tile.unit).collect();
-        for (pixel, sum) in pixels.into_iter().zip(&tile.sums) {
-            let i = self.index(pixel);
-            if self.counts[i] == 0 {
-                self.sums[i] = *sum;
-            } else {
-                self.sums[i].merge(sum);
-            }
-            self.counts[i] += samples;
-            self.shown_step[i] = 0;
-            self.pixels[i] = self.encoded(i, &self.display);
-            if let Pass::Lattice { step } = pass
-                && !is_alone
-            {
-                self.fill_block(pixel, step);
-            }
-        }
-        if let Pass::Lattice { step } = pass
-            && is_alone
-        {
-            self.fill_blocks(rect, step);
-        }
-        self.tiles_done[tile.unit.pass] += 1;
-        rect
-    }
-
-    /// Discards a tile's samples of an earlier plan. Returns whether it had none of this plan.
-    fn begin_tile(&mut self, tile: usize) -> bool {
-        let state = &mut self.tiles[tile];
-        if state.has_samples {
-            return false;
-        }
-        (state.has_samples, state.camera) = (true, self.camera);
-        let rect = self.plan.tile_rect(tile);
-        for y in rect.min.y..rect.max.y {
-            let row = self.row(rect, y);
-            self.counts[row.clone()].fill(0);
-            self.shown_step[row].fill(u8::MAX);
-        }
-        true
-    }
-
     /// The indices of a rectangle's pixels in a row.
     fn row(&self, rect: PixelRect, y: u32) -> Range<usize> {
         self.index(UVec2::new(rect.min.x, y))..self.index(UVec2::new(rect.max.x, y))
@@ -172,47 +136,6 @@ impl Film {
     /// Counts a tile that couldn't be traced as finished; its pixels keep their colour.
     pub fn skip(&mut self, unit: WorkUnit) {
         self.tiles_done[unit.pass] += 1;
-    }
-
-    /// Copies a pixel's colour to those pixels of its block that show a coarser block.
-    fn fill_block(&mut self, pixel: UVec2, step: u32) {
-        let colour = self.pixels[self.index(pixel)];
-        let min = pixel / step * step;
-        let max = (min + step).min(self.plan.size());
-        for y in min.y..max.y {
-            for x in min.x..max.x {
-                let i = self.index(UVec2::new(x, y));
-                if u32::from(self.shown_step[i]) > step {
-                    self.shown_step[i] = step as u8;
-                    self.pixels[i] = colour;
-                }
-            }
-        }
-    }
-
-    /// Does for all blocks of a tile that has only the samples of the first pass what [`fill_block`](Self::fill_block)
-    /// does for one block, but faster: each row is a copy of the row that has the samples.
-    fn fill_blocks(&mut self, tile: PixelRect, step: u32) {
-        let size = self.plan.size();
-        let starts = |from: u32, to: u32| (from..to).step_by(step as usize);
-        for top in starts(tile.min.y, tile.max.y) {
-            let sampled = |left| Plan::representative(size, UVec2::new(left, top), step);
-            let in_block = |left| (sampled(left).x - left) as usize;
-            let source = self.row(tile, sampled(tile.min.x).y);
-            let blocks = self.pixels[source.clone()].chunks_mut(step as usize);
-            for (block, left) in blocks.zip(starts(tile.min.x, tile.max.x)) {
-                block.fill(block[in_block(left)]);
-            }
-            for y in top..(top + step).min(tile.max.y) {
-                let row = self.row(tile, y);
-                self.shown_step[row.clone()].fill(step as u8);
-                self.pixels.copy_within(source.clone(), row.start);
-            }
-            let blocks = self.shown_step[source].chunks_mut(step as usize);
-            for (block, left) in blocks.zip(starts(tile.min.x, tile.max.x)) {
-                block[in_block(left)] = 0;
-            }
-        }
     }
 
     /// Changes exposure and tone curve, and returns whether they differ from before.
@@ -228,15 +151,18 @@ impl Film {
         for tile in 0..self.tiles.len() {
             let rect = self.plan.tile_rect(tile);
             let state = &mut self.tiles[tile];
-            let has_samples = state.has_samples;
-            if !has_samples {
+            if !state.has_samples {
                 state.camera = None;
+            } else if let Some(first_pass) = state.first_pass.take() {
+                self.fill_blocks(rect, first_pass.step.into(), &first_pass.sums);
+                self.tiles[tile].first_pass = Some(first_pass);
+                continue;
             }
             for y in rect.min.y..rect.max.y {
-                for i in self.row(rect, y) {
-                    self.pixels[i] = self
-                        .shown_at(i, has_samples, &display)
-                        .unwrap_or(background);
+                for x in rect.min.x..rect.max.x {
+                    let pixel = UVec2::new(x, y);
+                    let i = self.index(pixel);
+                    self.pixels[i] = self.shown(pixel, &display).unwrap_or(background);
                 }
             }
         }
@@ -249,36 +175,32 @@ impl Film {
     /// # Panics
     /// If the pixel lies outside of the picture.
     pub fn shown(&self, pixel: UVec2, display: &Display) -> Option<[u8; 4]> {
-        let has_samples = self.tiles[self.plan.tile_of(pixel)].has_samples;
-        self.shown_at(self.index(pixel), has_samples, display)
-    }
-
-    /// `has_samples` tells whether the pixel's tile has samples of the plan.
-    fn shown_at(&self, i: usize, has_samples: bool, display: &Display) -> Option<[u8; 4]> {
-        let step = Some(self.shown_step[i]).filter(|&step| has_samples && step != u8::MAX)?;
+        let state = &self.tiles[self.plan.tile_of(pixel)];
+        if !state.has_samples {
+            return None;
+        }
+        if let Some(first) = &state.first_pass {
+            let sum = &first.sums[self.plan.index_in_first_pass(pixel)];
+            return Some(self.encoded(sum, 1, display));
+        }
+        let i = match self.shown_step[self.index(pixel)] {
+            u8::MAX => return None,
+            0 => self.index(pixel),
+            step => self.index(Plan::representative(self.size(), pixel, step.into())),
+        };
         // A pixel that represents a block has a sample.
-        Some(self.encoded(self.shown_index(i, step.into()), display))
+        Some(self.encoded(&self.sums[i], self.counts[i], display))
     }
 
-    /// The displayed colour of the mean of a pixel's samples.
-    fn encoded(&self, i: usize, display: &Display) -> [u8; 4] {
-        let (sum, count) = (&self.sums[i], self.counts[i].max(1));
+    /// The displayed colour of the mean of `count` samples.
+    fn encoded(&self, sum: &SampleSum, count: u32, display: &Display) -> [u8; 4] {
+        let count = count.max(1);
         let part = sum.background_part(count);
         if part == 0.0 || *display == Display::default() {
             return display.encode(sum.mean(count));
         }
         let light = sum.mean(count) - part * self.background;
         display.encode_over(light, part, self.background)
-    }
-
-    /// The index of the pixel whose samples a pixel shows.
-    fn shown_index(&self, i: usize, step: u32) -> usize {
-        if step == 0 {
-            return i;
-        }
-        let width = self.plan.size().x;
-        let pixel = UVec2::new(i as u32 % width, i as u32 / width);
-        self.index(Plan::representative(self.plan.size(), pixel, step))
     }
 
     /// Exposure and tone curve.
@@ -340,8 +262,28 @@ impl Film {
     /// The sum and the number of a pixel's samples; the sum of 0 samples is undefined.
     fn samples_of(&self, pixel: UVec2) -> (&SampleSum, u32) {
         let i = self.index(pixel);
-        let has_samples = self.tiles[self.plan.tile_of(pixel)].has_samples;
-        (&self.sums[i], if has_samples { self.counts[i] } else { 0 })
+        let state = &self.tiles[self.plan.tile_of(pixel)];
+        match &state.first_pass {
+            _ if !state.has_samples => (&self.sums[i], 0),
+            None => (&self.sums[i], self.counts[i]),
+            Some(first) => {
+                let (step, size) = (first.step.into(), self.size());
+                let is_traced = Plan::representative(size, pixel, step) == pixel;
+                let sum = &first.sums[self.plan.index_in_first_pass(pixel)];
+                (sum, u32::from(is_traced))
+            }
+        }
+    }
+
+    /// Width and height, in pixels, of the blocks of equal colour that the whole picture consists of, from its top left
+    /// corner; 1 unless every tile shows the plan's first pass only.
+    pub fn block_px(&self) -> u32 {
+        let is_first = |tile: &TileState| tile.has_samples && tile.first_pass.is_some();
+        if self.tiles.iter().all(is_first) {
+            self.plan.first_step()
+        } else {
+            1
+        }
     }
 
     /// The plan being rendered.

@@ -119,7 +119,7 @@ mod tests {
                 sum
             };
             let sums = plan.pixels(unit).map(sum_of).collect();
-            film.add(&TileSamples { unit, sums });
+            film.add(TileSamples { unit, sums });
         }
         film
     }

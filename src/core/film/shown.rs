@@ -52,7 +52,10 @@ impl ShownPixels {
             self.cameras[tile] = film.tiles[tile].camera;
             let rect = film.plan.tile_rect(tile);
             for row in (rect.min.y..rect.max.y).map(|y| film.row(rect, y)) {
-                self.steps[row.clone()].copy_from_slice(&film.shown_step[row]);
+                match &film.tiles[tile].first_pass {
+                    Some(first) => self.steps[row].fill(first.step),
+                    None => self.steps[row.clone()].copy_from_slice(&film.shown_step[row]),
+                }
             }
         }
     }

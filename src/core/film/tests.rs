@@ -1,7 +1,7 @@
 //! Tests of films.
 
 use super::*;
-use crate::plan::STEPS;
+use crate::plan::{Pass, STEPS};
 
 fn sum_of(samples: &[Vec3]) -> SampleSum {
     let mut sum = SampleSum::default();
@@ -23,8 +23,8 @@ fn a_changed_display_gives_the_pixels_of_a_film_that_had_it_from_the_start() {
     for unit in (0..plan.unit_count()).map(|k| plan.unit(k)) {
         let sums = plan.pixels(unit).map(|p| sum_of(&[shade(p)])).collect();
         let tile = TileSamples { unit, sums };
-        with.add(&tile);
-        without.add(&tile);
+        with.add(tile.clone());
+        without.add(tile);
         if unit.tile % 2 == 0 {
             without.set_display(display);
             assert!(without.pixels() == with.pixels(), "{unit:?}");
@@ -67,7 +67,7 @@ fn exposure_and_tone_curve_change_light_and_not_the_background() {
             sum
         };
         let sums = plan.pixels(unit).map(sum_of).collect();
-        film.add(&TileSamples { unit, sums });
+        film.add(TileSamples { unit, sums });
     }
     let plain = Display::default();
     let both = |light: Vec3| plain.encode(0.5 * (background + light));
@@ -102,8 +102,9 @@ fn the_order_of_tiles_does_not_change_the_picture() {
         .collect();
     let mut forwards = Film::new(plan.clone(), Vec3::ZERO);
     let mut backwards = forwards.clone();
-    tiles.iter().for_each(|tile| _ = forwards.add(tile));
-    tiles.iter().rev().for_each(|tile| _ = backwards.add(tile));
+    tiles.iter().for_each(|tile| _ = forwards.add(tile.clone()));
+    let reversed = tiles.into_iter().rev();
+    reversed.for_each(|tile| _ = backwards.add(tile));
     assert!(forwards.is_complete() && backwards.is_complete());
     assert_eq!(forwards.pixels(), backwards.pixels());
     assert_eq!(forwards.samples(), 4);
@@ -124,7 +125,7 @@ fn a_pixel_without_a_sample_shows_the_colour_of_its_block() {
                 plan.pixels(unit)
                     .for_each(|p| has_sample[film.index(p)] = true);
                 let sums = plan.pixels(unit).map(|p| sum_of(&[shade(p)])).collect();
-                film.add(&TileSamples { unit, sums });
+                film.add(TileSamples { unit, sums });
             }
             let Pass::Lattice { step } = plan.pass(pass) else {
                 panic!("{pass} is a pass of a plan of one sample");
@@ -151,18 +152,58 @@ fn after_the_first_pass_each_pixel_shows_the_sample_of_its_block_at_any_size() {
             for tile in 0..plan.tile_count() {
                 let unit = WorkUnit { pass: 0, tile };
                 let sums = plan.pixels(unit).map(|p| sum_of(&[shade(p)])).collect();
-                film.add(&TileSamples { unit, sums });
+                film.add(TileSamples { unit, sums });
             }
-            for i in 0..size.element_product() as usize {
-                let p = UVec2::new(i as u32 % x, i as u32 / x);
-                let shown = Plan::representative(size, p, step);
-                let expected = Display::default().encode(shade(shown));
-                assert_eq!(film.pixels()[i], expected, "{p} of {size} by {step}");
-                let shown_step = if p == shown { 0 } else { step as u8 };
-                assert_eq!(film.shown_step[i], shown_step, "{p} of {size} by {step}");
+            // As the samples arrived, and spread over the film.
+            for is_spread in [false, true] {
+                if is_spread {
+                    (0..plan.tile_count()).for_each(|tile| film.begin_tile(tile));
+                }
+                for i in 0..size.element_product() {
+                    let p = UVec2::new(i % x, i / x);
+                    let case = format!("{p} of {size} by {step}, {is_spread}");
+                    let shown = Plan::representative(size, p, step);
+                    let expected = Display::default().encode(shade(shown));
+                    assert_eq!(film.pixels()[i as usize], expected, "{case}");
+                    let in_film = film.shown(p, &Display::default());
+                    assert_eq!(in_film, Some(expected), "{case}");
+                    let radiance = (p == shown).then(|| shade(p));
+                    assert_eq!(film.radiance(p), radiance, "{case}");
+                }
             }
         }
     }
+}
+
+#[test]
+fn a_picture_consists_of_blocks_while_every_tile_has_its_first_pass_and_no_other() {
+    let size = UVec2::new(100, 50);
+    let add = |film: &mut Film, pass: usize, tile: usize| {
+        let unit = WorkUnit { pass, tile };
+        let sums = film.plan().pixels(unit).map(|_| sum_of(&[Vec3::ONE]));
+        let sums = sums.collect();
+        film.add(TileSamples { unit, sums });
+    };
+    let mut film = Film::new(Plan::new(size, 4, 1), Vec3::ZERO);
+    let tiles = film.plan().tile_count();
+    for step in [4, 2, 6] {
+        film.restart(Plan::new(size, step, 1), Vec3::ZERO);
+        for tile in 0..tiles {
+            assert_eq!(film.block_px(), 1, "{tile} tiles by {step}");
+            add(&mut film, 0, tile);
+        }
+        assert_eq!(film.block_px(), step);
+    }
+    add(&mut film, 1, 3);
+    assert_eq!(film.block_px(), 1, "a later pass");
+    film.restart(Plan::new(size, 4, 1), Vec3::ZERO);
+    film.skip(WorkUnit { pass: 0, tile: 0 });
+    (1..tiles).for_each(|tile| add(&mut film, 0, tile));
+    assert_eq!(
+        (film.passes_done(), film.block_px()),
+        (1, 1),
+        "a skipped tile"
+    );
 }
 
 #[test]
@@ -177,7 +218,7 @@ fn a_restarted_film_of_the_same_size_keeps_its_colours() {
                 .pixels(unit)
                 .map(|_| sum_of(&[Vec3::ONE]))
                 .collect();
-            film.add(&TileSamples { unit, sums });
+            film.add(TileSamples { unit, sums });
         }
     };
     white(&mut film);
@@ -187,7 +228,8 @@ fn a_restarted_film_of_the_same_size_keeps_its_colours() {
     assert!(film.pixels().iter().all(|&p| p == [255; 4]));
     // Nothing is left of the samples before: white once more is no brighter.
     white(&mut film);
-    assert_eq!(film.counts.iter().filter(|&&n| n == 1).count(), 25);
+    let counts = (0..100).map(|i| film.sample_count(UVec2::new(i % 50, i / 50)));
+    assert_eq!(counts.sum::<u32>(), 25);
     let size = UVec2::new(51, 2);
     film.restart(Plan::new(size, 1, 1), Vec3::ZERO);
     assert_eq!(film.size(), size);
@@ -221,7 +263,7 @@ fn the_first_pass_covers_the_whole_picture() {
     for tile in 0..plan.tile_count() {
         let unit = plan.unit(tile);
         let sums = plan.pixels(unit).map(|_| sum_of(&[Vec3::ONE])).collect();
-        film.add(&TileSamples { unit, sums });
+        film.add(TileSamples { unit, sums });
     }
     assert!(film.pixels().iter().all(|&p| p == [255; 4]));
     assert_eq!((film.passes_done(), film.samples()), (1, 0));

@@ -88,8 +88,10 @@ impl Job {
         at: &Cell<(UVec2, u32)>,
     ) -> Option<TileResult> {
         let start = Instant::now();
-        let samples = self.plan.pass(unit.pass).samples();
-        let most_pixels = self.plan.tile_rect(unit.tile).pixel_count();
+        let pass = self.plan.pass(unit.pass);
+        let samples = pass.samples();
+        let blocks = self.plan.tile_rect(unit.tile).block_count(pass.step());
+        let most_pixels = blocks.element_product() as usize;
         let mut batch = SampleBatch {
             job: self,
             at,
@@ -267,7 +269,7 @@ pub fn render_while(
     while !film.is_complete() {
         match renderer.wait_next() {
             Message::Tile(tile) => {
-                film.add(&tile.samples);
+                film.add(tile.samples);
                 traced += f64::from(tile.rays);
                 if !goes_on(traced / all) {
                     return Err(RenderError::Cancelled);

@@ -101,10 +101,7 @@ impl Rendered {
 
     /// The sums over these rows from which the noise of the whole picture is computed.
     pub(super) fn noise_sum(&self) -> NoiseSum {
-        let rows = PixelRect {
-            min: UVec2::ZERO,
-            max: self.film.size(),
-        };
+        let rows = PixelRect::whole(self.film.size());
         let sum = NoiseSum::of(&self.film, rows).unwrap_or_default();
         sum.moved_by(UVec2::new(0, self.rows.start))
     }

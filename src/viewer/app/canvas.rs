@@ -56,29 +56,6 @@ impl Canvas {
         }
     }
 
-    /// The strips of `available` outside the picture, which are filled with the panel colour.
-    fn rest_of(&self, available: Rect) -> [Rect; 4] {
-        let (min, max) = (self.rect.min, self.rect.max);
-        [
-            Rect {
-                max: Pos2::new(min.x, available.max.y),
-                ..available
-            },
-            Rect {
-                max: Pos2::new(available.max.x, min.y),
-                ..available
-            },
-            Rect {
-                min: Pos2::new(max.x, available.min.y),
-                ..available
-            },
-            Rect {
-                min: Pos2::new(available.min.x, max.y),
-                ..available
-            },
-        ]
-    }
-
     /// Converts a position on the screen to pixels of a camera's picture, from its top left corner. A picture of
     /// another size is stretched over the canvas.
     pub fn pixel_of(&self, pos: Pos2, camera: &Camera) -> DVec2 {
@@ -107,9 +84,6 @@ impl App {
             let available = ui.available_rect_before_wrap();
             let mut canvas = self.place_picture(available, ui.ctx().pixels_per_point());
             canvas.part = self.shown.magnifier.part();
-            for rest in canvas.rest_of(available) {
-                ui.painter().rect_filled(rest, 0.0, ui.visuals().panel_fill);
-            }
             let response = ui.allocate_rect(canvas.rect, Sense::click_and_drag());
             response.widget_info(|| {
                 egui::WidgetInfo::labeled(egui::Role::Image, true, "Rendered picture")
@@ -166,7 +140,8 @@ impl App {
         let (look, film) = (self.look(), self.traced.tracer.film());
         let mut failure = None;
         if let Some((pixels, changed)) = self.traced.development.update(film, changed, look) {
-            let uploaded = self.traced.picture.upload(film.size(), pixels, changed);
+            let uploaded =
+                (self.traced.picture).upload(film.size(), pixels, changed, film.block_px());
             self.traced.shown.update(film, changed);
             failure = uploaded.err();
             self.note_change_of_a(ctx);

@@ -297,6 +297,11 @@ impl eframe::App for App {
         self.note_step(&ctx);
     }
 
+    /// The panels' colour, which they don't fill themselves.
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         // A screenshot uses the defaults, which must not replace the user's settings.
         if self.screenshot.is_none() {

@@ -5,6 +5,7 @@ use crate::command::{Commands, TABS};
 use crate::panels;
 use crate::preferences::PANEL_WIDTHS;
 use crate::tab::Tab;
+use crate::theme::panel_frame;
 use crate::trade::Trade;
 use egui::PanelState;
 use glam::UVec2;
@@ -31,6 +32,7 @@ impl App {
             ui.data_mut(|data| data.remove::<PanelState>(id));
         }
         let shown = egui::Panel::right(PANEL)
+            .frame(panel_frame(ui.style()))
             .default_size(default)
             .size_range(narrowest.min(limit)..=limit)
             .show_collapsible(ui, &mut is_expanded, |ui| {

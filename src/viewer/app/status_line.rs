@@ -4,6 +4,7 @@ use super::App;
 use crate::first_picture::shown_time;
 use crate::numbers::significant;
 use crate::panels::view::shown_kernel;
+use crate::theme::panel_frame;
 use crate::tracer::{Status, StopReason};
 use crate::watch::Watch;
 use egui::RichText;
@@ -13,8 +14,7 @@ use hitscope_core::counts::{counted, counted_as};
 impl App {
     pub(super) fn status_ui(&mut self, ui: &mut egui::Ui) {
         let parts = self.status_parts();
-        let frame =
-            egui::Frame::side_top_panel(ui.style()).inner_margin(egui::Margin::symmetric(6, 2));
+        let frame = panel_frame(ui.style()).inner_margin(egui::Margin::symmetric(6, 2));
         egui::Panel::bottom("status").frame(frame).show(ui, |ui| {
             let text = RichText::new(parts.join(" · ")).monospace().size(11.0);
             let label = egui::Label::new(text).truncate();

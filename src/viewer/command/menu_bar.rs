@@ -1,8 +1,9 @@
 //! The menu bar: every command, with its key at the right.
 
 use super::{Commands, Entry, Menu, Place};
+use crate::theme::panel_frame;
 use egui::scroll_area::ScrollBarVisibility;
-use egui::{Frame, Margin, MenuBar, Panel, ScrollArea, TextWrapMode};
+use egui::{Margin, MenuBar, Panel, ScrollArea, TextWrapMode};
 
 /// Width of the narrowest menu in points.
 const MIN_WIDTH: f32 = 150.0;
@@ -13,7 +14,7 @@ const MIN_HEIGHT: f32 = 80.0;
 
 /// Shows the menu bar.
 pub fn menu_bar_ui(ui: &mut egui::Ui, commands: &Commands) {
-    let frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(6, 1));
+    let frame = panel_frame(ui.style()).inner_margin(Margin::symmetric(6, 1));
     Panel::top("menu bar").frame(frame).show(ui, |ui| {
         // A narrow window scrolls the menu bar; a scroll bar would cover it.
         ScrollArea::horizontal()

@@ -1,8 +1,9 @@
 //! The tool bar: the commands that are used most.
 
 use super::{Commands, Place, VIEWS};
+use crate::theme::panel_frame;
 use egui::accesskit::Role;
-use egui::{ComboBox, Frame, Margin, Panel, WidgetInfo};
+use egui::{ComboBox, Margin, Panel, WidgetInfo};
 
 /// An item of the tool bar.
 enum Tool {
@@ -35,7 +36,7 @@ pub fn tool_bar_ui(ui: &mut egui::Ui, commands: &Commands) {
     if ui.ctx().content_rect().height() < LOWEST_WINDOW {
         return;
     }
-    let frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(6, 4));
+    let frame = panel_frame(ui.style()).inner_margin(Margin::symmetric(6, 4));
     Panel::top("toolbar").frame(frame).show(ui, |ui| {
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;

@@ -31,21 +31,21 @@ impl TracedSide {
         }
     }
 
-    /// Passes changes of the picture to `upload`: its size, all pixels, and the rectangle that changed. Returns whether
-    /// there were any.
+    /// Passes changes of the picture to `upload`: its size, all pixels, the rectangle that changed, and the size of its
+    /// blocks. Returns whether there were any.
     ///
     /// # Errors
     /// Those of `upload`.
     pub fn update(
         &mut self,
         look: Look,
-        upload: impl FnOnce(UVec2, &[[u8; 4]], PixelRect) -> Result<(), GpuError>,
+        upload: impl FnOnce(UVec2, &[[u8; 4]], PixelRect, u32) -> Result<(), GpuError>,
     ) -> Result<bool, GpuError> {
         let changed = self.tracer.take_changes().map(|(_, changed)| changed);
         let film = self.tracer.film();
         let is_new = match self.development.update(film, changed, look) {
             Some((pixels, changed)) => {
-                upload(film.size(), pixels, changed)?;
+                upload(film.size(), pixels, changed, film.block_px())?;
                 self.shown.update(film, changed);
                 true
             }

@@ -117,6 +117,7 @@ fn shader(device: &wgpu::Device, label: &str, source: &str) -> wgpu::ShaderModul
 #[cfg(test)]
 mod tests {
     use super::lines::{self, StyleUniform};
+    use super::picture::{self, DrawnPart};
     use super::traced;
     use super::view::{self, ViewUniform};
 
@@ -143,6 +144,9 @@ mod tests {
         let (size, offsets) = layout(&lines, "Style");
         assert_eq!(size, size_of::<StyleUniform>());
         assert_eq!(offsets, StyleUniform::OFFSETS);
+        let (size, offsets) = layout(picture::SHADER, "DrawnPart");
+        assert_eq!(size, size_of::<DrawnPart>());
+        assert_eq!(offsets, DrawnPart::OFFSETS);
         // Outlines use the colour alone; the other members are one there.
         let traced = format!("{}\n{}", view::SHADER, traced::SHADER);
         let (size, offsets) = layout(&traced, "Outline");

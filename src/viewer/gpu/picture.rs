@@ -1,8 +1,9 @@
 //! Drawing of the traced picture and the overlay on the screen.
 //!
 //! Uses a separate pipeline instead of egui's, whose shader takes a software rasterizer more time than the rays
-//! take: while the camera moved, a frame took 156 ms with egui's pipeline and 97 ms with this one (bunny,
-//! 1280 × 800, 2 cores, lavapipe, 2026-11).
+//! take: while the camera moved, a frame took 156 ms with egui's pipeline and 97 ms with a first version of this one
+//! (bunny, 1280 × 800, 2 cores, lavapipe, 2026-11). Coarse pictures, which replace each other while the camera moves, are
+//! uploaded with one texel per block of pixels.
 
 use super::upload::allocated;
 use super::{GpuError, extent, texture};
@@ -14,8 +15,9 @@ use hitscope_core::plan::PixelRect;
 /// A complete shader, without [`view::SHADER`](super::view::SHADER).
 pub const SHADER: &str = include_str!("../../../shaders/picture.wgsl");
 
-/// sRGB-encoded bytes without decoding, as in the film and in egui's target.
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// sRGB-encoded bytes without decoding, as in the film and in egui's target. In this order, Mesa's software rasterizer
+/// copies them in half the time (1280 × 740, Mesa 22.3, AVX2, 2026-11).
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Bgra8Unorm;
 
 /// Written by the CPU, read by the shader.
 const USAGE: wgpu::TextureUsages =
@@ -28,11 +30,17 @@ pub struct Picture {
     /// The pipelines without and with an overlay.
     pipelines: [wgpu::RenderPipeline; 2],
     layout: wgpu::BindGroupLayout,
+    /// `nearest` in picture.wgsl.
+    sampler: wgpu::Sampler,
     /// A placeholder texture if there is no overlay.
     nothing: wgpu::Texture,
-    /// The part that is drawn: `part` in picture.wgsl.
-    part: wgpu::Buffer,
+    /// `drawn` in picture.wgsl.
+    drawn: wgpu::Buffer,
     picture: Option<wgpu::Texture>,
+    /// Size in pixels of the blocks that the texture holds, from its top left corner; 1 if it holds pixels.
+    block_px: u32,
+    /// The texels that are uploaded, row by row.
+    texels: Vec<[u8; 4]>,
     /// The bind group of the picture and this overlay.
     bound: Option<(wgpu::Texture, wgpu::BindGroup)>,
 }
@@ -43,26 +51,30 @@ impl Picture {
         let device = render_state.device.clone();
         let layout = layout(&device);
         Self {
-            pipelines: [Layers::Picture, Layers::PictureAndOverlay]
-                .map(|layers| pipeline(&device, &layout, render_state.target_format, layers)),
+            pipelines: ["fs_picture", "fs_with_overlay"]
+                .map(|name| pipeline(&device, &layout, render_state.target_format, name)),
+            sampler: device.create_sampler(&wgpu::SamplerDescriptor::default()),
             // One transparent pixel: wgpu clears textures that are never written.
             nothing: texture(&device, "nothing", UVec2::ONE, FORMAT, USAGE),
-            part: device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("part of the picture"),
-                size: size_of::<[f32; 4]>() as u64,
+            drawn: device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("drawn part of the picture"),
+                size: size_of::<DrawnPart>() as u64,
                 usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             }),
             queue: render_state.queue.clone(),
             layout,
             picture: None,
+            block_px: 1,
+            texels: Vec::new(),
             bound: None,
             device,
         }
     }
 
-    /// Uploads the changed pixels, or all pixels if the size changed. Pixels are sRGB with alpha 255, row by row from the
-    /// top; as many as the size says.
+    /// Uploads the changed pixels, or all pixels if the size of the picture or of its blocks changed. Pixels are sRGB with
+    /// alpha 255, row by row from the top; as many as the size says. If the picture consists of blocks of `block_px` ×
+    /// `block_px` equal pixels, from its top left corner, one pixel of each block is uploaded; otherwise `block_px` is 1.
     ///
     /// # Errors
     /// [`GpuError::OutOfMemory`]; there is no picture then.
@@ -71,23 +83,38 @@ impl Picture {
         size: UVec2,
         pixels: &[[u8; 4]],
         changed: PixelRect,
+        block_px: u32,
     ) -> Result<(), GpuError> {
         let is_same_size =
             |texture: &wgpu::Texture| UVec2::new(texture.width(), texture.height()) == size;
-        let mut rect = changed;
-        let texture = match self.picture.take().filter(is_same_size) {
+        let known = self.picture.take().filter(is_same_size);
+        let rect = if known.is_some() && block_px == 1 && self.block_px == 1 {
+            changed
+        } else {
+            PixelRect::whole(size)
+        };
+        let texture = match known {
             Some(texture) => texture,
             None => {
-                rect = PixelRect {
-                    min: UVec2::ZERO,
-                    max: size,
-                };
                 self.bound = None;
                 let make = || texture(&self.device, "picture", size, FORMAT, USAGE);
                 allocated(&self.device, make)?
             }
         };
-        let first = (rect.min.y * size.x + rect.min.x) as usize;
+        self.block_px = block_px;
+        self.texels.clear();
+        let texel = |&[r, g, b, a]: &[u8; 4]| [b, g, r, a];
+        for y in (rect.min.y..rect.max.y).step_by(block_px as usize) {
+            let row = (y * size.x) as usize;
+            let row = &pixels[row + rect.min.x as usize..row + rect.max.x as usize];
+            if block_px == 1 {
+                self.texels.extend(row.iter().map(texel));
+            } else {
+                let sampled = row.iter().step_by(block_px as usize);
+                self.texels.extend(sampled.map(texel));
+            }
+        }
+        let count = rect.block_count(block_px);
         self.queue.write_texture(
             wgpu::TexelCopyTextureInfo {
                 texture: &texture,
@@ -99,16 +126,33 @@ impl Picture {
                 },
                 aspect: wgpu::TextureAspect::All,
             },
-            pixels[first..].as_flattened(),
+            self.texels.as_flattened(),
             wgpu::TexelCopyBufferLayout {
                 offset: 0,
-                bytes_per_row: Some(4 * size.x),
+                bytes_per_row: Some(4 * count.x),
                 rows_per_image: None,
             },
-            extent(rect.max - rect.min),
+            extent(count),
         );
         self.picture = Some(texture);
         Ok(())
+    }
+
+    /// The bind group of the picture and the overlay.
+    fn bind(&self, textures: [&wgpu::Texture; 2]) -> wgpu::BindGroup {
+        let views =
+            textures.map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default()));
+        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("picture"),
+            layout: &self.layout,
+            entries: &[
+                entry(0, wgpu::BindingResource::TextureView(&views[0])),
+                entry(1, wgpu::BindingResource::TextureView(&views[1])),
+                entry(2, wgpu::BindingResource::Sampler(&self.sampler)),
+                entry(3, self.drawn.as_entire_binding()),
+            ],
+        })
     }
 
     /// A shape that draws a part of the picture and of an overlay of its size into `rect`; `None` before the first upload.
@@ -120,9 +164,13 @@ impl Picture {
         overlay: Option<&wgpu::Texture>,
     ) -> Option<Shape> {
         let picture = self.picture.as_ref()?;
-        let values = [part.min.x, part.min.y, part.width(), part.height()];
+        let drawn = DrawnPart {
+            part: [part.min.x, part.min.y, part.width(), part.height()],
+            texture_from_picture: [1.0 / self.block_px as f32; 2],
+            padding: [0.0; 2],
+        };
         self.queue
-            .write_buffer(&self.part, 0, bytemuck::bytes_of(&values));
+            .write_buffer(&self.drawn, 0, bytemuck::bytes_of(&drawn));
         let pipeline = &self.pipelines[usize::from(overlay.is_some())];
         let overlay = overlay.unwrap_or(&self.nothing);
         if self
@@ -130,7 +178,7 @@ impl Picture {
             .as_ref()
             .is_none_or(|(bound, _)| bound != overlay)
         {
-            let group = bind(&self.device, &self.layout, [picture, overlay], &self.part);
+            let group = self.bind([picture, overlay]);
             self.bound = Some((overlay.clone(), group));
         }
         let (_, group) = self.bound.as_ref()?;
@@ -142,11 +190,23 @@ impl Picture {
     }
 }
 
-/// The layers that a pipeline draws. The discriminant is the shader's `HAS_OVERLAY`.
-#[derive(Clone, Copy)]
-enum Layers {
-    Picture = 0,
-    PictureAndOverlay = 1,
+/// `DrawnPart` in picture.wgsl.
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(super) struct DrawnPart {
+    /// The corner and the size of the part.
+    part: [f32; 4],
+    texture_from_picture: [f32; 2],
+    padding: [f32; 2],
+}
+
+impl DrawnPart {
+    /// Offsets of the members, for the test that compares them with WGSL's.
+    #[cfg(test)]
+    pub(super) const OFFSETS: [usize; 2] = [
+        std::mem::offset_of!(Self, part),
+        std::mem::offset_of!(Self, texture_from_picture),
+    ];
 }
 
 /// The GPU resources of a frame.
@@ -169,52 +229,34 @@ impl CallbackTrait for Draw {
 }
 
 fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
-    let entry = |binding| wgpu::BindGroupLayoutEntry {
+    let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry {
         binding,
-        visibility: wgpu::ShaderStages::FRAGMENT,
-        ty: wgpu::BindingType::Texture {
+        visibility,
+        ty,
+        count: None,
+    };
+    let layer = |binding| {
+        let ty = wgpu::BindingType::Texture {
             sample_type: wgpu::TextureSampleType::Float { filterable: false },
             view_dimension: wgpu::TextureViewDimension::D2,
             multisampled: false,
-        },
-        count: None,
+        };
+        entry(binding, wgpu::ShaderStages::FRAGMENT, ty)
     };
-    let part = wgpu::BindGroupLayoutEntry {
-        binding: 2,
-        visibility: wgpu::ShaderStages::FRAGMENT,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
+    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
+    let drawn = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: None,
     };
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("picture"),
-        entries: &[entry(0), entry(1), part],
-    })
-}
-
-fn bind(
-    device: &wgpu::Device,
-    layout: &wgpu::BindGroupLayout,
-    textures: [&wgpu::Texture; 2],
-    part: &wgpu::Buffer,
-) -> wgpu::BindGroup {
-    let views =
-        textures.map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default()));
-    let entry = |binding: usize| wgpu::BindGroupEntry {
-        binding: binding as u32,
-        resource: wgpu::BindingResource::TextureView(&views[binding]),
-    };
-    let part = wgpu::BindGroupEntry {
-        binding: 2,
-        resource: part.as_entire_binding(),
-    };
-    device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("picture"),
-        layout,
-        entries: &[entry(0), entry(1), part],
+        entries: &[
+            layer(0),
+            layer(1),
+            entry(2, wgpu::ShaderStages::FRAGMENT, sampler),
+            entry(3, wgpu::ShaderStages::VERTEX, drawn),
+        ],
     })
 }
 
@@ -222,7 +264,7 @@ fn pipeline(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     target: wgpu::TextureFormat,
-    layers: Layers,
+    entry_point: &str,
 ) -> wgpu::RenderPipeline {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("picture"),
@@ -247,11 +289,8 @@ fn pipeline(
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module: &module,
-            entry_point: Some("fs_main"),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &[("HAS_OVERLAY", f64::from(layers as u8))],
-                ..wgpu::PipelineCompilationOptions::default()
-            },
+            entry_point: Some(entry_point),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &[Some(target.into())],
         }),
         multiview_mask: None,

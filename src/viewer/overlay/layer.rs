@@ -260,10 +260,7 @@ impl OverlayLayer {
         }
         let (shapes, shared, camera) = (self.shapes.clone(), Arc::clone(scene), *camera);
         let trace = move |device: &wgpu::Device, queue: &wgpu::Queue, progress: &Progress| {
-            let whole = PixelRect {
-                min: UVec2::ZERO,
-                max: camera.resolution(),
-            };
+            let whole = PixelRect::whole(camera.resolution());
             let pixels = shapes.trace(&shared, &camera, &view, whole, progress)?;
             Ok(TracedLayer::new(device, queue, view.size(), &pixels)?)
         };

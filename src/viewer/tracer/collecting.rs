@@ -59,7 +59,7 @@ impl Tracer {
     fn receive(&mut self, message: Message) -> Option<RenderPanic> {
         match message {
             Message::Tile(tile) => {
-                self.add(&tile);
+                self.add(tile);
                 None
             }
             Message::Panicked(unit, panic) => {

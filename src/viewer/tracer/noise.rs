@@ -52,11 +52,10 @@ mod tests {
             };
             let sums = plan.pixels(unit).map(sum_of).collect();
             let WorkUnit { tile, .. } = unit;
-            film.add(&TileSamples { unit, sums });
+            film.add(TileSamples { unit, sums });
             noise.update(&film, tile);
         }
-        let (min, max) = (UVec2::ZERO, size);
-        let whole = NoiseSum::of(&film, PixelRect { min, max }).expect("two samples each");
+        let whole = NoiseSum::of(&film, PixelRect::whole(size)).expect("two samples each");
         let (total, whole) = (noise.total().expect("two samples each"), whole.noise());
         // Sums of 3000 numbers of 16 digits in another order.
         assert!(

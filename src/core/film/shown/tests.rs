@@ -9,10 +9,7 @@ use glam::{DVec3, Vec3};
 /// Two tiles in a row, the second of which is narrow.
 const SIZE: UVec2 = UVec2::new(TILE_PX + 7, 31);
 
-const ALL: PixelRect = PixelRect {
-    min: UVec2::ZERO,
-    max: SIZE,
-};
+const ALL: PixelRect = PixelRect::whole(SIZE);
 
 /// A camera at this height, which is the blue component of its picture.
 fn camera(height: f64) -> Camera {
@@ -54,7 +51,7 @@ fn trace(film: &mut Film, height: f64, pass: usize, tile: usize) {
         sum
     };
     let sums = film.plan().pixels(unit).map(sum).collect();
-    film.add(&TileSamples { unit, sums });
+    film.add(TileSamples { unit, sums });
 }
 
 /// Checks that each pixel of the screen has the colour of the pixel that it is said to show.
@@ -123,12 +120,6 @@ fn a_picture_of_another_size_shows_nothing_of_the_last_one() {
     shown.update(&film, ALL);
     let size = UVec2::new(SIZE.x - 1, SIZE.y);
     film.restart(Plan::new(size, 1, 1), Vec3::ONE);
-    shown.update(
-        &film,
-        PixelRect {
-            min: UVec2::ZERO,
-            max: size,
-        },
-    );
+    shown.update(&film, PixelRect::whole(size));
     assert_eq!(shown.at(UVec2::ZERO), None);
 }

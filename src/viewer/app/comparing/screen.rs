@@ -66,7 +66,7 @@ impl Screen {
         pixels: &[[u8; 4]],
     ) -> Result<(), GpuError> {
         let picture = self.map.get_or_insert_with(|| Picture::new(render_state));
-        picture.upload(size, pixels, whole(size))
+        picture.upload(size, pixels, PixelRect::whole(size), 1)
     }
 }
 
@@ -76,13 +76,6 @@ struct Difference {
     of: ([u64; 2], f32),
     /// Width and height, and the pixels; `None` while the sizes of the sides differ.
     picture: Option<(UVec2, Vec<[u8; 4]>)>,
-}
-
-fn whole(size: UVec2) -> PixelRect {
-    PixelRect {
-        min: UVec2::ZERO,
-        max: size,
-    }
 }
 
 /// Uploads a rasterized picture of a side that draws `shown`. Returns whether it is a new one.
@@ -99,7 +92,12 @@ fn upload_rasterized(
         return Ok(false);
     }
     let picture = picture.get_or_insert_with(|| Picture::new(render_state));
-    picture.upload(newest.size(), &newest.pixels, whole(newest.size()))?;
+    picture.upload(
+        newest.size(),
+        &newest.pixels,
+        PixelRect::whole(newest.size()),
+        1,
+    )?;
     *shown = Some(Arc::clone(newest));
     Ok(true)
 }
@@ -121,8 +119,8 @@ impl Compared {
                     return Ok(false);
                 };
                 let other = other.get_or_insert_with(picture);
-                side.update(look, |size, pixels, changed| {
-                    other.upload(size, pixels, changed)
+                side.update(look, |size, pixels, changed, block_px| {
+                    other.upload(size, pixels, changed, block_px)
                 })
             }
             Source::Rasterized => {
@@ -138,7 +136,7 @@ impl Compared {
                 let pixels = size.zip(self.reference.pixels());
                 if let (true, Some((size, pixels))) = (is_new, pixels) {
                     let other = other.get_or_insert_with(picture);
-                    other.upload(size, pixels, whole(size))?;
+                    other.upload(size, pixels, PixelRect::whole(size), 1)?;
                 }
                 Ok(is_new)
             }
@@ -181,7 +179,7 @@ impl Compared {
         };
         let render_state = &self.render_state;
         let picture = (self.screen.difference).get_or_insert_with(|| Picture::new(render_state));
-        picture.upload(size, &pixels, whole(size))?;
+        picture.upload(size, &pixels, PixelRect::whole(size), 1)?;
         self.screen.difference_of = Some(of);
         Ok(())
     }
