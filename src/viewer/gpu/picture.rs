@@ -72,6 +72,14 @@ impl Picture {
         }
     }
 
+    /// Uploads all pixels of a picture that doesn't consist of blocks; see [`upload`](Self::upload).
+    ///
+    /// # Errors
+    /// Those of [`upload`](Self::upload).
+    pub fn upload_whole(&mut self, size: UVec2, pixels: &[[u8; 4]]) -> Result<(), GpuError> {
+        self.upload(size, pixels, PixelRect::whole(size), 1)
+    }
+
     /// Uploads the changed pixels, or all pixels if the size of the picture or of its blocks changed. Pixels are sRGB with
     /// alpha 255, row by row from the top; as many as the size says. If the picture consists of blocks of `block_px` ×
     /// `block_px` equal pixels, from its top left corner, one pixel of each block is uploaded; otherwise `block_px` is 1.

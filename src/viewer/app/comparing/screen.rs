@@ -9,7 +9,6 @@ use crate::gpu::picture::Picture;
 use crate::look::Look;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Shape};
 use glam::UVec2;
-use hitscope_core::plan::PixelRect;
 use hitscope_core::tone::Display;
 use std::sync::Arc;
 
@@ -66,7 +65,7 @@ impl Screen {
         pixels: &[[u8; 4]],
     ) -> Result<(), GpuError> {
         let picture = self.map.get_or_insert_with(|| Picture::new(render_state));
-        picture.upload(size, pixels, PixelRect::whole(size), 1)
+        picture.upload_whole(size, pixels)
     }
 }
 
@@ -92,12 +91,7 @@ fn upload_rasterized(
         return Ok(false);
     }
     let picture = picture.get_or_insert_with(|| Picture::new(render_state));
-    picture.upload(
-        newest.size(),
-        &newest.pixels,
-        PixelRect::whole(newest.size()),
-        1,
-    )?;
+    picture.upload_whole(newest.size(), &newest.pixels)?;
     *shown = Some(Arc::clone(newest));
     Ok(true)
 }
@@ -136,7 +130,7 @@ impl Compared {
                 let pixels = size.zip(self.reference.pixels());
                 if let (true, Some((size, pixels))) = (is_new, pixels) {
                     let other = other.get_or_insert_with(picture);
-                    other.upload(size, pixels, PixelRect::whole(size), 1)?;
+                    other.upload_whole(size, pixels)?;
                 }
                 Ok(is_new)
             }
@@ -179,7 +173,7 @@ impl Compared {
         };
         let render_state = &self.render_state;
         let picture = (self.screen.difference).get_or_insert_with(|| Picture::new(render_state));
-        picture.upload(size, &pixels, PixelRect::whole(size), 1)?;
+        picture.upload_whole(size, &pixels)?;
         self.screen.difference_of = Some(of);
         Ok(())
     }
